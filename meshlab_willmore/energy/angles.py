@@ -1,0 +1,84 @@
+"""The intersection angle beta of the circumcircles of two neighbouring faces, and sums of it.
+
+For the edge a-b with the faces (a, b, p) and (b, a, q) let c1, n1 be the scalar and the vector
+product of the two sides at p, and c2, n2 those at q. The quaternionic cross-ratio of the four
+points has, up to a positive factor, the real part r and an imaginary part of the length s in
+
+    r = n1 . n2 - c1 c2        s = | c1 n2 + c2 n1 - n1 x n2 |        beta = atan2(s, r)
+
+(A. I. Bobenko, "A conformal energy for simplicial surfaces", 2005). Both are off by a few
+roundings of ``hypot(r, s)`` only, so beta is good to some 1e-15 everywhere, also near 0 and pi,
+where an `acos` or a square root of ``1 - r * r`` would lose half of the digits.
+
+A sum of angles takes a single `atan2`: the complex numbers (r, s) are multiplied, and since each
+angle lies in [0, pi] it is enough to count the half-turns on the way.
+"""
+
+import math
+from typing import NamedTuple
+
+from ..mesh.jit import jit
+from ..mesh.points import cross, dot, subtract
+
+
+class Turn(NamedTuple):
+    """An angle in [0, pi] as a complex number r + i s with s >= 0, of any length but zero."""
+
+    r: float
+    s: float
+
+
+class AngleSum(NamedTuple):
+    """A sum of angles: `half_turns` times pi plus the argument of r + i s, in [0, pi)."""
+
+    r: float
+    s: float
+    half_turns: float
+
+
+NO_ANGLES = AngleSum(1.0, 0.0, 0.0)
+
+
+@jit
+def turn(a, b, p, q):
+    """Return the intersection angle at the edge a-b of the faces (a, b, p) and (b, a, q).
+
+    Its length lies between 0.7 and 1; it is NaN if one of a, b coincides with one of p, q.
+    """
+    a_p, b_p = subtract(a, p), subtract(b, p)
+    a_q, b_q = subtract(a, q), subtract(b, q)
+    c1, n1 = dot(a_p, b_p), cross(a_p, b_p)
+    c2, n2 = dot(b_q, a_q), cross(b_q, a_q)
+    n3 = cross(n1, n2)
+    x = c1 * n2.x + c2 * n1.x - n3.x
+    y = c1 * n2.y + c2 * n1.y - n3.y
+    z = c1 * n2.z + c2 * n1.z - n3.z
+    r, s = dot(n1, n2) - c1 * c2, math.sqrt(x * x + y * y + z * z)
+    # The 1-norm is cheaper than the length, and as good to keep products of turns in range.
+    size = abs(r) + s
+    if not size > 0.0:
+        return Turn(math.nan, math.nan)
+    return Turn(r / size, s / size)
+
+
+@jit
+def angle(a, b, p, q):
+    """Return the intersection angle in [0, pi] that `turn` returns as a complex number."""
+    beta = turn(a, b, p, q)
+    return math.atan2(beta.s, beta.r)
+
+
+@jit
+def add(total, beta):
+    """Return the sum `total` with the turn `beta` added."""
+    r = total.r * beta.r - total.s * beta.s
+    s = total.r * beta.s + total.s * beta.r
+    if s < 0.0 or (s == 0.0 and r < 0.0):
+        return AngleSum(-r, -s, total.half_turns + 1.0)
+    return AngleSum(r, s, total.half_turns)
+
+
+@jit
+def radians(total):
+    """Return the value of a sum of angles."""
+    return math.pi * total.half_turns + math.atan2(total.s, total.r)

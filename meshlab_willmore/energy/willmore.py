@@ -1,0 +1,58 @@
+"""The Willmore energy of a mesh: twice the sum of the intersection angles over all inner edges.
+
+On a closed mesh it differs from Bobenko's sum of W(v) = (sum of beta at v) - 2 pi by the constant
+2 pi |V|, so it is lowered by the same flips. Boundary edges have no angle and contribute nothing.
+Source: "Mesh optimisation based on Willmore energy", section 2, and A. I. Bobenko, "A conformal
+energy for simplicial surfaces", 2005.
+
+A flip of i-j leaves the angle at the diagonal alone (beta(i-j) = beta(k-l)) and changes those at
+the four sides of the quad, whose inner corner becomes the other end of the new edge.
+"""
+
+import math
+
+from ..mesh.halfedge import diamond
+from ..mesh.jit import jit
+from .angles import angle, radians
+from .sides import Corners, side_angles
+
+
+@jit
+def cost_reduction(mesh, h):
+    """Return by how much the energy drops when `h` is flipped.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    h : int
+        Half-edge with a twin.
+
+    Returns
+    -------
+    float
+        In radians; positive where the flip helps, minus infinity where an angle is undefined.
+    """
+    quad = diamond(mesh, h)
+    before = side_angles(mesh, h, quad, Corners(quad.i, quad.j, quad.j, quad.i))
+    after = side_angles(mesh, h, quad, Corners(quad.l, quad.l, quad.k, quad.k))
+    gain = 2.0 * (radians(before) - radians(after))
+    return gain if math.isfinite(gain) else -math.inf
+
+
+@jit
+def edge_angle(mesh, h):
+    """Return the intersection angle at `h`, which has a twin; NaN where it is undefined."""
+    quad = diamond(mesh, h)
+    return angle(quad.i, quad.j, quad.k, quad.l)
+
+
+@jit
+def total(mesh):
+    """Return the energy of the mesh in radians; edges without a defined angle add nothing."""
+    angles = 0.0
+    for h in range(len(mesh.origin)):
+        if h < mesh.twin[h]:
+            beta = edge_angle(mesh, h)
+            if math.isfinite(beta):
+                angles += beta
+    return 2.0 * angles

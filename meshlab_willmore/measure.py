@@ -1,0 +1,270 @@
+"""Measures of a mesh on plain arrays: Willmore energy, curvatures, area, shapes.
+
+Source: "Mesh optimisation based on Willmore energy", section 2.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from .energy.willmore import edge_angle
+from .guards import dihedral_angle, triangle_shape
+from .mesh.build import build, interior_vertices
+from .mesh.halfedge import apex, following
+from .mesh.jit import jit
+from .mesh.points import angle_between, norm, normal, point, subtract
+from .mesh.validate import check_mesh, to_unit_scale
+
+FULL_TURN = 2.0 * math.pi
+
+
+class Measures(NamedTuple):
+    """The totals of the paper's section 2.
+
+    Attributes
+    ----------
+    area : float
+        Total area, in squared units of the coordinates.
+    gaussian_curvature : float
+        Sum of 2 pi - (sum of the angles) over the inner vertices, in radians; 2 pi times the Euler
+        characteristic on a closed mesh.
+    absolute_gaussian_curvature : float
+        The same with absolute values.
+    absolute_mean_curvature : float
+        Sum of (angle between the normals) times length over the inner edges, in units of length.
+    willmore_energy : float
+        Sum of W(v) over the inner vertices, in radians.
+    """
+
+    area: float
+    gaussian_curvature: float
+    absolute_gaussian_curvature: float
+    absolute_mean_curvature: float
+    willmore_energy: float
+
+
+def willmore_energy(vertices, faces):
+    """Return the Willmore energy of a mesh: the sum of W(v) over its inner vertices.
+
+    Parameters
+    ----------
+    vertices : (n, 3) array_like of float
+    faces : (m, 3) array_like of int
+
+    Returns
+    -------
+    float
+        In radians, never negative but for rounding; see `vertex_willmore_energy`.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As `meshlab_willmore.mesh.validate.check_mesh`.
+    """
+    return willmore_energy_of(_unit_mesh(vertices, faces)[0])
+
+
+def vertex_willmore_energy(vertices, faces):
+    """Return W(v) = (sum of the intersection angles at v) - 2 pi for each vertex.
+
+    It is 0 exactly where v is convex and lies with its neighbours on a sphere or plane, and
+    positive everywhere else (A. I. Bobenko, "A conformal energy for simplicial surfaces", 2005).
+
+    Parameters
+    ----------
+    vertices : (n, 3) array_like of float
+    faces : (m, 3) array_like of int
+
+    Returns
+    -------
+    (n,) float64
+        In radians. 0 at vertices where W is undefined: on the boundary, not manifold, of no face,
+        or with an angle that coincident points leave undefined.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As `meshlab_willmore.mesh.validate.check_mesh`.
+    """
+    return _vertex_energy(_unit_mesh(vertices, faces)[0])
+
+
+def intersection_angles(vertices, faces):
+    """Return the angles between the circumcircles of neighbouring faces.
+
+    Parameters
+    ----------
+    vertices : (n, 3) array_like of float
+    faces : (m, 3) array_like of int
+
+    Returns
+    -------
+    edges : (e, 2) int32
+        Vertex pairs of the edges with exactly two faces of the same orientation.
+    beta : (e,) float64
+        External angle of intersection in [0, pi] radians; 0 where coincident points leave it
+        undefined.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As `meshlab_willmore.mesh.validate.check_mesh`.
+    """
+    mesh = _unit_mesh(vertices, faces)[0]
+    inner = _inner_edges(mesh)
+    edges = np.column_stack([mesh.origin[inner], mesh.origin[mesh.twin[inner]]])
+    return edges, np.nan_to_num(_edge_angles(mesh, inner))
+
+
+def measures(vertices, faces):
+    """Return all the totals of the paper's section 2.
+
+    Curvatures are summed over inner edges, and over vertices whose faces form one closed fan.
+
+    Parameters
+    ----------
+    vertices : (n, 3) array_like of float
+    faces : (m, 3) array_like of int
+
+    Returns
+    -------
+    Measures
+
+    Raises
+    ------
+    TypeError, ValueError
+        As `meshlab_willmore.mesh.validate.check_mesh`.
+    """
+    mesh, exponent = _unit_mesh(vertices, faces)
+    gaussian = _angle_defects(mesh)[interior_vertices(mesh)]
+    return Measures(
+        area=_rescaled(_area(mesh), 2 * exponent),
+        gaussian_curvature=float(gaussian.sum()),
+        absolute_gaussian_curvature=float(np.abs(gaussian).sum()),
+        absolute_mean_curvature=_rescaled(_mean_curvature(mesh), exponent),
+        willmore_energy=willmore_energy_of(mesh),
+    )
+
+
+def triangle_shapes(vertices, faces):
+    """Return the shape 4 sqrt(3) area / (sum of squared sides) of each face.
+
+    Parameters
+    ----------
+    vertices : (n, 3) array_like of float
+    faces : (m, 3) array_like of int
+
+    Returns
+    -------
+    (m,) float64
+        1 for an equilateral triangle, 0 for a degenerate one.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As `meshlab_willmore.mesh.validate.check_mesh`.
+    """
+    return _shapes(_unit_mesh(vertices, faces)[0])
+
+
+def willmore_energy_of(mesh):
+    """Return the Willmore energy of a half-edge mesh, as `willmore_energy` does."""
+    return float(_vertex_energy(mesh).sum())
+
+
+def _unit_mesh(vertices, faces):
+    """Return the half-edge mesh of checked arrays at unit scale, and the exponent of that scale."""
+    vertices, faces = check_mesh(vertices, faces)
+    scaled, exponent = to_unit_scale(vertices, faces)
+    return build(scaled, faces), exponent
+
+
+def _rescaled(value, exponent):
+    """Return a length or area in the units of the input; one too large for a float is infinite."""
+    with np.errstate(over="ignore", under="ignore"):
+        return float(np.ldexp(value, exponent))
+
+
+def _inner_edges(mesh):
+    """Return the lower half-edge of each edge with a twin."""
+    return np.flatnonzero(np.arange(len(mesh.twin)) < mesh.twin)
+
+
+def _vertex_energy(mesh):
+    inner = _inner_edges(mesh)
+    sums = _sums_at_ends(mesh, inner, _edge_angles(mesh, inner))
+    defined = interior_vertices(mesh) & np.isfinite(sums)
+    return np.where(defined, sums - FULL_TURN, 0.0)
+
+
+@jit
+def _sums_at_ends(mesh, edges, values):
+    """Sum the values of the edges (given as half-edges) at their end vertices."""
+    sums = np.zeros(len(mesh.vertices))
+    for e in range(len(edges)):
+        h = edges[e]
+        sums[mesh.origin[h]] += values[e]
+        sums[mesh.origin[mesh.twin[h]]] += values[e]
+    return sums
+
+
+@jit
+def _edge_angles(mesh, edges):
+    """Return the intersection angle at each of the half-edges `edges`."""
+    beta = np.empty(len(edges))
+    for e in range(len(edges)):
+        beta[e] = edge_angle(mesh, edges[e])
+    return beta
+
+
+@jit
+def _corners(mesh, f):
+    """Return the three points of the face `f`."""
+    return (
+        point(mesh.vertices, mesh.origin[3 * f]),
+        point(mesh.vertices, mesh.origin[3 * f + 1]),
+        point(mesh.vertices, mesh.origin[3 * f + 2]),
+    )
+
+
+@jit
+def _area(mesh):
+    total = 0.0
+    for f in range(len(mesh.origin) // 3):
+        a, b, c = _corners(mesh, f)
+        total += 0.5 * norm(normal(a, b, c))
+    return total
+
+
+@jit
+def _shapes(mesh):
+    shapes = np.empty(len(mesh.origin) // 3)
+    for f in range(len(shapes)):
+        a, b, c = _corners(mesh, f)
+        shapes[f] = triangle_shape(a, b, c)
+    return shapes
+
+
+@jit
+def _angle_defects(mesh):
+    """Return 2 pi - (sum of the angles) for each vertex."""
+    defects = np.full(len(mesh.vertices), FULL_TURN)
+    for h in range(len(mesh.origin)):
+        v = point(mesh.vertices, mesh.origin[h])
+        ahead = subtract(point(mesh.vertices, mesh.origin[following(h)]), v)
+        behind = subtract(point(mesh.vertices, apex(mesh, h)), v)
+        defects[mesh.origin[h]] -= angle_between(ahead, behind)
+    return defects
+
+
+@jit
+def _mean_curvature(mesh):
+    """Return the sum of dihedral angle times length over the edges with a twin."""
+    total = 0.0
+    for h in range(len(mesh.origin)):
+        if h < mesh.twin[h]:
+            i = point(mesh.vertices, mesh.origin[h])
+            j = point(mesh.vertices, mesh.origin[mesh.twin[h]])
+            total += dihedral_angle(mesh, h) * norm(subtract(j, i))
+    return total

@@ -1,0 +1,1 @@
+"""What a mesh is: checked arrays, half-edge connectivity, and the flip."""

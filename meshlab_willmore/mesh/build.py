@@ -1,0 +1,136 @@
+"""From faces to half-edge connectivity, and the check that it is sound."""
+
+import numpy as np
+
+from .halfedge import NONE, Mesh, next_in_fan
+from .jit import jit
+
+
+@jit
+def _sort_by_vertex(order, vertex, starts):
+    """Return `order` stably sorted by `vertex[order]`; `starts` (n + 1,) is scratch space."""
+    starts[:] = 0
+    for h in order:
+        starts[vertex[h] + 1] += 1
+    for v in range(1, len(starts)):
+        starts[v] += starts[v - 1]
+    result = np.empty_like(order)
+    for h in order:
+        result[starts[vertex[h]]] = h
+        starts[vertex[h]] += 1
+    return result
+
+
+@jit
+def _pair(origin, low, high, order):
+    """Return the twins, given half-edges in `order` of their end vertices `low` <= `high`."""
+    twin = np.full(len(origin), NONE, np.int32)
+    start = 0
+    while start < len(order):
+        h = order[start]
+        stop = start + 1
+        while stop < len(order) and low[order[stop]] == low[h] and high[order[stop]] == high[h]:
+            stop += 1
+        t = order[stop - 1]
+        # Two half-edges that start at the same vertex belong to faces of opposite orientation.
+        if stop - start == 2 and origin[h] != origin[t]:
+            twin[h], twin[t] = t, h
+        start = stop
+    return twin
+
+
+@jit
+def _fan_counts(mesh, fans):
+    """Count the fans of faces around each vertex into `fans` (n,)."""
+    seen = np.zeros(len(mesh.origin), np.bool_)
+    for start in range(len(mesh.origin)):
+        if seen[start]:
+            continue
+        fans[mesh.origin[start]] += 1
+        h = start
+        while not seen[h]:
+            seen[h] = True
+            h = next_in_fan(mesh, h)
+
+
+def edge_ends(faces):
+    """Return the lower and the higher end vertex of each half-edge of `faces` (m, 3)."""
+    ahead = np.roll(faces, -1, axis=1)
+    return np.minimum(faces, ahead).ravel(), np.maximum(faces, ahead).ravel()
+
+
+def build(vertices, faces):
+    """Return the half-edge mesh of checked arrays, with nothing locked.
+
+    Works in O(n + m): two counting sorts bring the half-edges of each edge together.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+        Coordinates; the mesh keeps a reference.
+    faces : (m, 3) int32
+        Vertex indices, each face with three different ones; copied.
+
+    Returns
+    -------
+    Mesh
+    """
+    origin = faces.ravel().copy()
+    low, high = edge_ends(faces)
+    starts = np.empty(len(vertices) + 1, np.int64)
+    corner = np.arange(len(origin), dtype=np.int32)
+    order = _sort_by_vertex(_sort_by_vertex(corner, high, starts), low, starts)
+    twin = _pair(origin, low, high, order)
+    fans = np.zeros(len(vertices), np.int32)
+    locked = np.zeros(len(origin), np.bool_)
+    mesh = Mesh(vertices, origin, twin, locked, corner, np.zeros(len(vertices), np.bool_))
+    _fan_counts(mesh, fans)
+    return mesh._replace(several_fans=fans > 1)
+
+
+def faces_of(mesh):
+    """Return the faces (m, 3) int32 of `mesh` as a new array."""
+    return mesh.origin.reshape(-1, 3).copy()
+
+
+def interior_vertices(mesh):
+    """Return the mask (n,) of the vertices whose faces form one closed fan."""
+    inner = np.zeros(len(mesh.vertices), bool)
+    inner[mesh.origin] = True
+    at_rim = np.flatnonzero(mesh.twin == NONE)
+    inner[mesh.origin[at_rim]] = False
+    inner[mesh.origin[following_all(at_rim)]] = False
+    return inner & ~mesh.several_fans
+
+
+def following_all(h):
+    """Return the next half-edge in its face for each of the array `h`."""
+    return h + 1 - 3 * (h % 3 == 2)
+
+
+def validate_connectivity(mesh):
+    """Check the invariants of `meshlab_willmore.mesh.halfedge` on the whole mesh.
+
+    Raises
+    ------
+    ValueError
+        Names the first half-edge at which an invariant is broken.
+    """
+    h = np.flatnonzero(mesh.twin != NONE)
+    t = mesh.twin[h]
+    ahead = mesh.origin[following_all(np.arange(len(mesh.origin)))]
+    _refuse(h, mesh.twin[t] != h, "is not the twin of its twin")
+    _refuse(h, (mesh.origin[h] != ahead[t]) | (mesh.origin[t] != ahead[h]), "and its twin differ")
+    _refuse(h, mesh.locked[h] != mesh.locked[t], "is locked on one side only")
+    _refuse(np.arange(len(ahead)), mesh.origin == ahead, "starts and ends at the same vertex")
+    rebuilt = build(mesh.vertices, faces_of(mesh))
+    _refuse(
+        np.arange(len(ahead)), mesh.twin != rebuilt.twin, "has not the twin that the faces give"
+    )
+    fans = np.flatnonzero(mesh.several_fans != rebuilt.several_fans)
+    _refuse(fans, np.ones(len(fans), bool), "as a vertex changed its number of fans")
+
+
+def _refuse(which, broken, what):
+    if broken.any():
+        raise ValueError(f"half-edge {which[np.argmax(broken)]} {what}")

@@ -1,0 +1,215 @@
+r"""Half-edge connectivity on flat arrays, and the flip.
+
+Half-edge ``h = 3 * f + c`` runs from corner ``c`` of face ``f`` to the next corner of that face, so
+the face, the next and the previous half-edge are arithmetic; only the origin and the twin are
+stored. Every kernel of the package names the surroundings of a half-edge ``h`` from i to j, with
+twin ``t``, by this picture:
+
+            k
+          / | \           before: faces (i, j, k), (j, i, l)      edge  i-j
+         /  |  \          after:  faces (k, i, l), (l, j, k)      edge  k-l
+        i---+---j
+         \  |  /          h: i -> j in face (i, j, k)
+          \ | /           t: j -> i in face (j, i, l)
+            l
+
+Invariants, before and after every flip: ``twin[twin[h]] == h``; twins run between the same two
+vertices in opposite directions; a face has three different vertices; no two edges with twins join
+the same two vertices. `meshlab_willmore.mesh.build.validate_connectivity` checks them.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from .jit import jit
+from .points import Point, point
+
+NONE = -1
+
+
+class Mesh(NamedTuple):
+    """A triangle mesh of n vertices and m faces, ready for flips.
+
+    Attributes
+    ----------
+    vertices : (n, 3) float64
+        Coordinates, never changed.
+    origin : (3 m,) int32
+        Vertex at which each half-edge starts: the flattened faces.
+    twin : (3 m,) int32
+        The half-edge that runs the other way; `NONE` where there is not exactly one half-edge each
+        way (boundary, non-manifold edge, neighbours of opposite orientation).
+    locked : (3 m,) bool
+        Edges that must not be flipped; twins agree.
+    corner : (3 m,) int32
+        A corner ``3 f + c`` of the *input* faces at the same vertex and on the same side of all
+        locked edges: it tells which wedge data a corner inherits.
+    several_fans : (n,) bool
+        Vertices whose faces do not form one fan around them. Flips never change that.
+    """
+
+    vertices: np.ndarray
+    origin: np.ndarray
+    twin: np.ndarray
+    locked: np.ndarray
+    corner: np.ndarray
+    several_fans: np.ndarray
+
+
+class Diamond(NamedTuple):
+    """The corners of the two faces at an edge, as points."""
+
+    i: Point
+    j: Point
+    k: Point
+    l: Point
+
+
+@jit
+def following(h):
+    """Return the next half-edge of the face."""
+    return h - 2 if h % 3 == 2 else h + 1
+
+
+@jit
+def previous(h):
+    """Return the previous half-edge of the face."""
+    return h + 2 if h % 3 == 0 else h - 1
+
+
+@jit
+def apex(mesh, h):
+    """Return the vertex of the face of `h` that is not on `h`."""
+    return mesh.origin[previous(h)]
+
+
+@jit
+def diamond(mesh, h):
+    """Return the four points around `h`, which must have a twin."""
+    t = mesh.twin[h]
+    return Diamond(
+        point(mesh.vertices, mesh.origin[h]),
+        point(mesh.vertices, mesh.origin[t]),
+        point(mesh.vertices, apex(mesh, h)),
+        point(mesh.vertices, apex(mesh, t)),
+    )
+
+
+@jit
+def next_in_fan(mesh, h):
+    """Return the half-edge after `h` in the fan of faces around its origin.
+
+    An open fan is read as a ring too: its last half-edge is followed by its first.
+    """
+    t = mesh.twin[h]
+    if t != NONE:
+        return following(t)
+    before = mesh.twin[previous(h)]
+    while before != NONE:
+        h = before
+        before = mesh.twin[previous(h)]
+    return h
+
+
+@jit
+def _has_corner(mesh, h, v):
+    """Tell whether `v` is one of the two vertices opposite to the origin of `h` in its face."""
+    return mesh.origin[following(h)] == v or mesh.origin[previous(h)] == v
+
+
+@jit
+def are_joined(mesh, a, b):
+    """Tell whether an edge joins the origins of the half-edges `a` and `b`; also if in doubt.
+
+    The fans of both are walked in step until one is through, so that a vertex with a great many
+    edges does no harm. That is exact: where the faces at a vertex form a single fan, each edge of
+    the vertex belongs to a face of that fan. If both vertices have several fans, the answer is yes.
+    """
+    u, v = mesh.origin[a], mesh.origin[b]
+    if mesh.several_fans[u] and mesh.several_fans[v]:
+        return True
+    x, y = a, b
+    while True:
+        if _has_corner(mesh, x, v) or _has_corner(mesh, y, u):
+            return True
+        x, y = next_in_fan(mesh, x), next_in_fan(mesh, y)
+        if (x == a and not mesh.several_fans[u]) or (y == b and not mesh.several_fans[v]):
+            return False
+
+
+@jit
+def is_free(mesh, h):
+    """Tell whether `h` has a twin, is not locked, and leaves i and j enough edges when flipped.
+
+    A fan must not end with fewer than three edges. Only the two faces at `h` are looked at.
+    """
+    t = mesh.twin[h]
+    if t == NONE or mesh.locked[h]:
+        return False
+    # An inner vertex with three edges needs no test: there, k-l is an edge already.
+    if mesh.twin[previous(h)] == NONE and mesh.twin[following(t)] == NONE:
+        return False
+    return mesh.twin[following(h)] != NONE or mesh.twin[previous(t)] != NONE
+
+
+@jit
+def makes_new_edge(mesh, h):
+    """Tell whether k and l, the ends of `h` if it were flipped, differ and are not joined yet."""
+    t = mesh.twin[h]
+    return apex(mesh, h) != apex(mesh, t) and not are_joined(mesh, previous(h), previous(t))
+
+
+@jit
+def can_flip(mesh, h):
+    """Tell whether the connectivity and the locks allow to flip `h`.
+
+    Refused are edges without twin, locked edges, flips to an edge that exists anywhere in the mesh,
+    and flips after which the fan at i or j has fewer than three edges.
+    """
+    return is_free(mesh, h) and makes_new_edge(mesh, h)
+
+
+@jit
+def _glue(mesh, h, outer, is_locked):
+    """Make `h` and `outer` (or `NONE`) twins; `outer` knows already whether it is locked."""
+    mesh.twin[h] = outer
+    mesh.locked[h] = is_locked
+    if outer != NONE:
+        mesh.twin[outer] = h
+
+
+@jit
+def flip(mesh, h):
+    """Flip the edge of `h` in place; `can_flip` must have said yes.
+
+    The face (i, j, k) becomes (k, i, l) in its slot, the face (j, i, l) becomes (l, j, k) in its
+    slot. `h` and its twin stay the twins on the diagonal, now from l to k and from k to l; the
+    four sides move one place round the quad, so four flips give back the same `origin`, `twin` and
+    `locked`, bit for bit. (`corner` comes back up to corners that are interchangeable: the two
+    faces have two corners at i and at j before the flip, one afterwards.)
+
+    Parameters
+    ----------
+    mesh : Mesh
+        `origin`, `twin`, `locked` and `corner` change in the two faces, `twin` also at the
+        half-edges that surround them.
+    h : int
+        Half-edge.
+    """
+    t = mesh.twin[h]
+    j_k, k_i = following(h), previous(h)
+    i_l, l_j = following(t), previous(t)
+    i, j, k, l = mesh.origin[h], mesh.origin[t], mesh.origin[k_i], mesh.origin[l_j]
+    at_i, at_j, at_k, at_l = mesh.corner[h], mesh.corner[t], mesh.corner[k_i], mesh.corner[l_j]
+    outer = mesh.twin[j_k], mesh.twin[k_i], mesh.twin[i_l], mesh.twin[l_j]
+    locks = mesh.locked[j_k], mesh.locked[k_i], mesh.locked[i_l], mesh.locked[l_j]
+
+    mesh.origin[h], mesh.origin[j_k], mesh.origin[k_i] = l, k, i
+    mesh.origin[t], mesh.origin[i_l], mesh.origin[l_j] = k, l, j
+    mesh.corner[h], mesh.corner[j_k], mesh.corner[k_i] = at_l, at_k, at_i
+    mesh.corner[t], mesh.corner[i_l], mesh.corner[l_j] = at_k, at_l, at_j
+    _glue(mesh, j_k, outer[1], locks[1])
+    _glue(mesh, k_i, outer[2], locks[2])
+    _glue(mesh, i_l, outer[3], locks[3])
+    _glue(mesh, l_j, outer[0], locks[0])

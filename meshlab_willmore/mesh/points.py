@@ -1,0 +1,62 @@
+"""Points and vectors of space as small tuples of floats: Numba keeps them in registers."""
+
+import math
+from typing import NamedTuple
+
+from .jit import jit
+
+
+class Point(NamedTuple):
+    """A point, or the vector from one point to another."""
+
+    x: float
+    y: float
+    z: float
+
+
+@jit
+def point(vertices, v):
+    """Return row `v` of the coordinates `vertices` (n, 3)."""
+    return Point(vertices[v, 0], vertices[v, 1], vertices[v, 2])
+
+
+@jit
+def subtract(a, b):
+    """Return the vector from `b` to `a`."""
+    return Point(a.x - b.x, a.y - b.y, a.z - b.z)
+
+
+@jit
+def middle(a, b):
+    """Return the point halfway between `a` and `b`."""
+    return Point(0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.z + b.z))
+
+
+@jit
+def dot(a, b):
+    """Return the scalar product."""
+    return a.x * b.x + a.y * b.y + a.z * b.z
+
+
+@jit
+def cross(a, b):
+    """Return the vector product."""
+    return Point(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
+
+
+@jit
+def norm(a):
+    """Return the length of the vector `a`."""
+    return math.sqrt(dot(a, a))
+
+
+@jit
+def normal(a, b, c):
+    """Return the normal of the triangle (a, b, c); its length is twice the area."""
+    return cross(subtract(b, a), subtract(c, a))
+
+
+@jit
+def angle_between(a, b):
+    """Return the angle between two vectors in [0, pi]; 0 where one of them is zero."""
+    return math.atan2(norm(cross(a, b)), dot(a, b))

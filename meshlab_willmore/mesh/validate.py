@@ -1,0 +1,164 @@
+"""Checks at the edge of the public functions: what passes is safe for the kernels."""
+
+import math
+import numbers
+
+import numpy as np
+
+# Half-edges are numbered 3 f + c in int32.
+MOST_FACES = (2**31 - 1) // 3
+MOST_VERTICES = 2**31 - 1
+REPAIR_NULL_FACES = "meshing_remove_null_faces"
+
+
+def check_mesh(vertices, faces):
+    """Return vertices and faces as the kernels take them, or raise.
+
+    Parameters
+    ----------
+    vertices : (n, 3) array_like of real numbers
+        Coordinates, all finite.
+    faces : (m, 3) array_like of int
+        Indices of the three different corners of each face. m may be 0.
+
+    Returns
+    -------
+    vertices : (n, 3) float64
+    faces : (m, 3) int32
+        Both may share memory with the input.
+
+    Raises
+    ------
+    TypeError
+        Wrong kind of numbers.
+    ValueError
+        Wrong shape, or names the first vertex or face that is wrong.
+    """
+    vertices = _check_vertices(np.asarray(vertices))
+    return vertices, _check_faces(np.asarray(faces), len(vertices))
+
+
+def _check_vertices(vertices):
+    if vertices.dtype.kind not in "fiu":
+        raise TypeError(f"vertices must be real numbers, not {vertices.dtype}")
+    vertices = _check_rows(vertices, "vertices", 3)
+    if len(vertices) > MOST_VERTICES:
+        raise ValueError(f"{len(vertices)} vertices are too many, at most {MOST_VERTICES} work")
+    with np.errstate(over="ignore"):
+        converted = np.ascontiguousarray(vertices, np.float64)
+    finite = np.isfinite(converted).all(axis=1)
+    if not finite.all():
+        v = int(np.argmin(finite))
+        raise ValueError(f"vertex {v} has a coordinate that is not finite: {converted[v].tolist()}")
+    return converted
+
+
+def _check_rows(array, name, width):
+    """Check that an array has rows of `width` numbers; an empty list has none and is fine."""
+    if array.shape == (0,):
+        return array.reshape(0, width)
+    if array.ndim != 2 or array.shape[1] != width:
+        raise ValueError(f"{name} must have the shape (count, {width}), not {array.shape}")
+    return array
+
+
+def _check_indices(indices, name, width):
+    """Check that an array has rows of `width` integers; the type of an empty list says nothing."""
+    if indices.dtype.kind not in "iu" and indices.shape != (0,):
+        raise TypeError(f"{name} must be integers, not {indices.dtype}")
+    return _check_rows(indices, name, width)
+
+
+def _check_faces(faces, vertex_count):
+    faces = _check_indices(faces, "faces", 3)
+    if len(faces) > MOST_FACES:
+        raise ValueError(f"{len(faces)} faces are too many, at most {MOST_FACES} work")
+    outside = ((faces < 0) | (faces >= vertex_count)).any(axis=1)
+    if outside.any():
+        f = int(np.argmax(outside))
+        last = vertex_count - 1
+        allowed = f"not in 0 .. {last}" if vertex_count else "wrong, there are no vertices"
+        raise ValueError(f"face {f} has a vertex index that is {allowed}: {faces[f].tolist()}")
+    repeated = (faces == np.roll(faces, 1, axis=1)).any(axis=1)
+    if repeated.any():
+        f = int(np.argmax(repeated))
+        raise ValueError(
+            f"face {f} has a repeated vertex: {faces[f].tolist()}; "
+            f"the PyMeshLab filter {REPAIR_NULL_FACES} removes such faces"
+        )
+    return np.ascontiguousarray(faces, np.int32)
+
+
+def check_edges(edges):
+    """Return vertex pairs (e, 2) as int64, or raise as `check_mesh` does."""
+    return _check_indices(np.asarray(edges), "locked_edges", 2).astype(np.int64)
+
+
+def check_mask(mask, count):
+    """Return the boolean mask (count,) as an array, or raise TypeError or ValueError."""
+    mask = np.asarray(mask)
+    if mask.dtype != np.bool_:
+        raise TypeError(f"selected_faces must be a mask of bool, not {mask.dtype}")
+    if mask.shape != (count,):
+        raise ValueError(f"selected_faces must have the shape ({count},), not {mask.shape}")
+    return mask
+
+
+def check_choice(name, value, choices):
+    """Raise a ValueError that lists the choices unless `value` is one of them."""
+    if not isinstance(value, str) or value not in choices:
+        listed = ", ".join(repr(choice) for choice in choices)
+        raise ValueError(f"unknown {name} {value!r}; choose one of {listed}")
+
+
+def check_degrees(name, value):
+    """Return an angle in degrees as float; it must lie in [0, 180]."""
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, numbers.Real):
+        raise TypeError(f"{name} must be a number of degrees, not {type(value).__name__}")
+    degrees = float(value)
+    if not (math.isfinite(degrees) and 0.0 <= degrees <= 180.0):
+        raise ValueError(f"{name} must lie in 0 .. 180 degrees, not {degrees}")
+    return degrees
+
+
+def check_flag(name, value):
+    """Return a switch as bool; anything but True and False is a TypeError."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{name} must be True or False, not {type(value).__name__}")
+    return bool(value)
+
+
+def check_limit(name, value):
+    """Return a number of flips as int, or None for no limit."""
+    if value is None:
+        return None
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, numbers.Integral):
+        raise TypeError(f"{name} must be an integer or None, not {type(value).__name__}")
+    if value < 0:
+        raise ValueError(f"{name} must not be negative, not {value}")
+    return int(value)
+
+
+def to_unit_scale(vertices, faces):
+    """Return coordinates scaled by a power of two, so that products of lengths stay in range.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+    faces : (m, 3) int32
+
+    Returns
+    -------
+    scaled : (n, 3) float64
+        A new array, exact, with the largest coordinate of a face's vertex in [0.5, 1); vertices
+        of no face are set to 0.
+    exponent : int
+        ``vertices == scaled * 2**exponent``.
+    """
+    used = np.zeros(len(vertices), bool)
+    used[faces] = True
+    kept = np.where(used[:, None], vertices, 0.0)
+    _, exponent = math.frexp(float(np.abs(kept).max(initial=0.0)))
+    # Two steps, as 2**-exponent itself may not be a float.
+    half = -exponent // 2
+    return np.ldexp(np.ldexp(kept, half), -exponent - half), exponent

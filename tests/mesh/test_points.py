@@ -1,0 +1,41 @@
+"""The vector helpers against NumPy."""
+
+import numpy as np
+import pytest
+
+from meshlab_willmore.mesh.points import (
+    Point,
+    angle_between,
+    cross,
+    dot,
+    middle,
+    norm,
+    normal,
+    point,
+    subtract,
+)
+
+ROWS = np.random.default_rng(0).normal(size=(3, 3))
+A, B, C = (Point(*row) for row in ROWS.tolist())
+
+
+def test_helpers_agree_with_numpy():
+    a, b, c = ROWS
+    assert tuple(point(ROWS, 1)) == tuple(b)
+    assert tuple(subtract(A, B)) == tuple(a - b)
+    assert tuple(middle(A, B)) == tuple(0.5 * (a + b))
+    assert dot(A, B) == pytest.approx(a @ b, rel=1e-15)
+    assert norm(A) == pytest.approx(np.linalg.norm(a), rel=1e-15)
+    np.testing.assert_allclose(cross(A, B), np.cross(a, b), rtol=1e-14)
+    np.testing.assert_allclose(normal(A, B, C), np.cross(b - a, c - a), rtol=1e-14)
+
+
+@pytest.mark.parametrize("degrees", [0.0, 1e-7, 30.0, 90.0, 179.9999999, 180.0])
+def test_angle_between_is_accurate_at_both_ends(degrees):
+    wanted = np.radians(degrees)
+    turned = Point(float(np.cos(wanted)), float(np.sin(wanted)), 0.0)
+    assert angle_between(Point(2.0, 0.0, 0.0), turned) == pytest.approx(wanted, abs=1e-15)
+
+
+def test_angle_with_a_zero_vector_is_zero():
+    assert angle_between(Point(0.0, 0.0, 0.0), Point(1.0, 2.0, 3.0)) == 0.0

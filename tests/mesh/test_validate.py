@@ -1,0 +1,143 @@
+"""Each wrong input gets an error that names the culprit; what is odd but right passes."""
+
+import numpy as np
+import pytest
+
+from meshlab_willmore.mesh import validate
+from tests import meshes
+
+VERTICES, FACES = meshes.cube()
+
+
+def with_vertex(v, value, dtype=float):
+    vertices = VERTICES.astype(dtype)
+    vertices[v, 1] = value
+    return vertices
+
+
+def with_face(f, face):
+    faces = FACES.copy()
+    faces[f] = face
+    return faces
+
+
+@pytest.mark.parametrize(
+    ("vertices", "error", "message"),
+    [
+        (VERTICES[:, :2], ValueError, r"shape \(count, 3\), not \(14, 2\)"),
+        (VERTICES.ravel(), ValueError, r"shape \(count, 3\), not \(42,\)"),
+        (VERTICES.astype(complex), TypeError, "complex128"),
+        (VERTICES.astype(object), TypeError, "object"),
+        (VERTICES.astype(bool), TypeError, "bool"),
+        (VERTICES.astype(str), TypeError, "<U"),
+        (with_vertex(5, np.nan), ValueError, "vertex 5 .*nan"),
+        (with_vertex(13, -np.inf, np.float32), ValueError, "vertex 13 .*-inf"),
+        (with_vertex(2, np.longdouble("1e400"), np.longdouble), ValueError, "vertex 2 .*inf"),
+    ],
+)
+def test_wrong_vertices(vertices, error, message):
+    with pytest.raises(error, match=message):
+        validate.check_mesh(vertices, FACES)
+
+
+@pytest.mark.parametrize(
+    ("faces", "error", "message"),
+    [
+        (FACES[:, :2], ValueError, r"shape \(count, 3\), not \(24, 2\)"),
+        (FACES.ravel(), ValueError, r"not \(72,\)"),
+        (FACES.astype(float), TypeError, "integers, not float64"),
+        (FACES.astype(bool), TypeError, "integers, not bool"),
+        (FACES.astype(object), TypeError, "integers, not object"),
+        (FACES.astype(complex), TypeError, "integers, not complex128"),
+        (with_face(7, (0, 1, 14)), ValueError, r"face 7 .*0 .. 13: \[0, 1, 14\]"),
+        (with_face(9, (0, -1, 2)), ValueError, r"face 9 .*\[0, -1, 2\]"),
+        (np.full((1, 3), 2**63, np.uint64), ValueError, "face 0 .*9223372036854775808"),
+        (with_face(3, (4, 5, 4)), ValueError, "face 3 .*repeated.*meshing_remove_null_faces"),
+        (with_face(4, (4, 5, 5)), ValueError, "face 4 .*repeated"),
+        (with_face(4, (4, 4, 5)), ValueError, "face 4 .*repeated"),
+    ],
+)
+def test_wrong_faces(faces, error, message):
+    with pytest.raises(error, match=message):
+        validate.check_mesh(VERTICES, faces)
+
+
+def test_too_many_faces_for_the_numbering_of_half_edges():
+    many = np.broadcast_to(FACES[:1], (validate.MOST_FACES + 1, 3))
+    with pytest.raises(ValueError, match=str(validate.MOST_FACES)):
+        validate.check_mesh(VERTICES, many)
+
+
+def test_too_many_vertices():
+    many = np.broadcast_to(VERTICES[:1], (validate.MOST_VERTICES + 1, 3))
+    with pytest.raises(ValueError, match=str(validate.MOST_VERTICES)):
+        validate.check_mesh(many, FACES)
+
+
+@pytest.mark.parametrize(
+    ("vertices", "faces"),
+    [
+        (VERTICES.tolist(), FACES.tolist()),
+        (VERTICES.astype(np.float32), FACES.astype(np.uint8)),
+        (np.asfortranarray(VERTICES), np.asfortranarray(FACES.astype(np.int64))),
+        (VERTICES[::-1], FACES[::2]),
+        (VERTICES, []),
+        (VERTICES, np.empty((0, 3), int)),
+        ([], []),
+    ],
+)
+def test_what_numpy_can_read_becomes_float64_and_int32(vertices, faces):
+    checked, corners = validate.check_mesh(vertices, faces)
+    assert checked.dtype == np.float64
+    assert corners.dtype == np.int32
+    assert checked.flags.c_contiguous
+    assert corners.flags.c_contiguous
+    np.testing.assert_array_equal(checked, np.asarray(vertices).reshape(-1, 3))
+    np.testing.assert_array_equal(corners, np.asarray(faces).reshape(-1, 3))
+
+
+def test_faces_without_vertices():
+    with pytest.raises(ValueError, match=r"face 0 .*there are no vertices"):
+        validate.check_mesh(np.empty((0, 3)), FACES)
+
+
+@pytest.mark.parametrize("value", [-1, 180.5, np.nan, np.inf])
+def test_degrees_out_of_range(value):
+    with pytest.raises(ValueError, match=r"foldangle must lie in 0 .. 180"):
+        validate.check_degrees("foldangle", value)
+
+
+@pytest.mark.parametrize("value", ["90", None, True, [90]])
+def test_degrees_of_a_wrong_type(value):
+    with pytest.raises(TypeError, match="foldangle must be a number"):
+        validate.check_degrees("foldangle", value)
+
+
+def test_limits_and_flags():
+    assert validate.check_limit("maxflips", None) is None
+    assert validate.check_limit("maxflips", np.int32(3)) == 3
+    assert validate.check_flag("monotone", np.bool_(True)) is True
+    assert validate.check_degrees("foldangle", np.float32(90)) == 90.0
+    with pytest.raises(ValueError, match="maxflips must not be negative, not -1"):
+        validate.check_limit("maxflips", -1)
+    for wrong in (1.0, True, "1"):
+        with pytest.raises(TypeError, match="maxflips must be an integer"):
+            validate.check_limit("maxflips", wrong)
+    for wrong in (1, "yes", None):
+        with pytest.raises(TypeError, match="monotone must be True or False"):
+            validate.check_flag("monotone", wrong)
+
+
+@pytest.mark.parametrize("scale", [1.0, 3e-7, 1e300, 1e-300, 5e-324, 1.7e308])
+def test_unit_scale_is_a_power_of_two(scale):
+    vertices = VERTICES * scale
+    scaled, exponent = validate.to_unit_scale(vertices, FACES)
+    assert 0.5 <= np.abs(scaled).max() < 1.0
+    np.testing.assert_array_equal(np.ldexp(scaled, exponent), vertices)
+
+
+def test_unit_scale_does_not_look_at_vertices_of_no_face():
+    far = np.vstack([VERTICES, [[1e300, 0.0, 0.0]]])
+    scaled, _ = validate.to_unit_scale(far, FACES)
+    assert scaled.max() >= 0.5
+    assert (scaled[-1] == 0.0).all()

@@ -1,0 +1,119 @@
+"""A slow second implementation, in plain NumPy and dictionaries, independent of the kernels.
+
+Angles come from an inversion in one end of the edge, which makes lines of both circumcircles; they
+are computed in long double. Meshes are lists of faces, flips and virtual vertices make new lists.
+"""
+
+import numpy as np
+
+
+def intersection_angle(a, b, p, q):
+    """Angle between the circles (a, b, p) and (b, a, q); points (..., 3)."""
+    a, b, p, q = (np.asarray(x, np.longdouble) for x in (a, b, p, q))
+
+    def invert(x):
+        return (x - a) / np.sum((x - a) ** 2, axis=-1, keepdims=True)
+
+    first, second = invert(b) - invert(p), invert(q) - invert(b)
+    sine = np.sqrt(np.sum(np.cross(first, second) ** 2, axis=-1))
+    return np.arctan2(sine, np.sum(first * second, axis=-1))
+
+
+def diamonds(faces):
+    """Rows (i, j, k, l) of the edges with exactly one half-edge each way, i < j."""
+    apexes = {}
+    for i, j, k in np.asarray(faces).tolist():
+        for a, b, c in ((i, j, k), (j, k, i), (k, i, j)):
+            apexes.setdefault((a, b), []).append(c)
+    rows = [
+        (a, b, apexes[a, b][0], apexes[b, a][0])
+        for a, b in apexes
+        if a < b and len(apexes[a, b]) == len(apexes.get((b, a), ())) == 1
+    ]
+    return np.array(rows, int).reshape(-1, 4)
+
+
+def edge_angles(vertices, faces):
+    """The diamonds and the angle at each."""
+    rows = diamonds(faces)
+    return rows, intersection_angle(*vertices[rows].transpose(1, 0, 2))
+
+
+def objective(vertices, faces):
+    """Twice the sum of the angles over the inner edges."""
+    return float(2 * edge_angles(vertices, faces)[1].sum())
+
+
+def flipped(faces, i, j):
+    """The faces after the flip of i-j, which must have one half-edge each way."""
+    (k,) = _apexes(faces, i, j)
+    (l,) = _apexes(faces, j, i)
+    kept = [face for face in map(tuple, faces) if not {i, j} <= set(face)]
+    return [*kept, (k, i, l), (l, j, k)]
+
+
+def with_virtual_vertex(vertices, faces, i, j):
+    """The mesh with a vertex in the middle of i-j, joined to the four corners of the diamond."""
+    (k,) = _apexes(faces, i, j)
+    (l,) = _apexes(faces, j, i)
+    v = len(vertices)
+    kept = [face for face in map(tuple, faces) if not {i, j} <= set(face)]
+    added = np.vstack([vertices, (vertices[i] + vertices[j]) / 2])
+    return added, [*kept, (v, i, l), (v, l, j), (v, j, k), (v, k, i)]
+
+
+def willmore_reduction(vertices, faces, i, j):
+    """Objective before minus after the flip of i-j."""
+    return objective(vertices, faces) - objective(vertices, flipped(faces, i, j))
+
+
+def virtual_reduction(vertices, faces, i, j):
+    """The paper's cost reduction of the edge i-j, by brute-force subdivision."""
+    (k,) = _apexes(faces, i, j)
+    (l,) = _apexes(faces, j, i)
+    before = objective(*with_virtual_vertex(vertices, faces, i, j))
+    after = objective(*with_virtual_vertex(vertices, flipped(faces, i, j), k, l))
+    return before - after
+
+
+def edge_set(faces):
+    """All vertex pairs that some face joins."""
+    faces = np.asarray(faces)
+    ends = np.sort(np.vstack([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    return set(map(tuple, ends.tolist()))
+
+
+def interior_vertices(faces, count):
+    """Mask of the vertices whose faces form one closed fan, by walking round each."""
+    inner = np.zeros(count, bool)
+    rolled = [np.roll(face, -c).tolist() for face in np.asarray(faces) for c in range(3)]
+    for v in range(count):
+        around = [(b, c) for a, b, c in rolled if a == v]
+        ahead = dict(around)
+        if not around or len(ahead) < len(around) or set(ahead) != set(ahead.values()):
+            continue
+        start = here = around[0][0]
+        steps = 0
+        while steps == 0 or here != start:
+            here = ahead[here]
+            steps += 1
+        inner[v] = steps == len(around)
+    return inner
+
+
+def vertex_energy(vertices, faces):
+    """W(v) at the interior vertices, 0 elsewhere."""
+    rows, beta = edge_angles(vertices, faces)
+    energy = np.zeros(len(vertices), np.longdouble)
+    np.add.at(energy, rows[:, 0], beta)
+    np.add.at(energy, rows[:, 1], beta)
+    return np.where(interior_vertices(faces, len(vertices)), energy - 2 * np.pi, 0).astype(float)
+
+
+def _apexes(faces, a, b):
+    return [
+        face[(c + 2) % 3]
+        for face in map(tuple, faces)
+        for c in range(3)
+        if face[c] == a and face[(c + 1) % 3] == b
+    ]

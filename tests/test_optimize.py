@@ -1,0 +1,450 @@
+"""optimize_flips: the paper's models, invariances, options, and odd input."""
+
+import inspect
+import signal
+import time
+
+import numpy as np
+import pytest
+
+from meshlab_willmore.measure import measures, triangle_shapes, willmore_energy
+from meshlab_willmore.mesh.build import build, validate_connectivity
+from meshlab_willmore.optimize import FlipResult, optimize_flips
+from tests import meshes, reference
+
+ENERGIES = ["virtual willmore", "willmore"]
+BUMPY = meshes.bumpy_sphere(60)
+PATCH = meshes.patch(60)
+
+
+def rolled(faces):
+    """Faces as a set of tuples that start at their lowest vertex."""
+    return {tuple(np.roll(face, -int(np.argmin(face))).tolist()) for face in faces}
+
+
+def check(vertices, faces, result):
+    """What holds for every result."""
+    assert isinstance(result, FlipResult)
+    assert result.faces.dtype == np.int32
+    assert result.faces.shape == np.shape(faces)
+    assert result.corners.dtype == np.int32
+    assert result.corners.shape == np.shape(faces)
+    numbers = result.gain, result.willmore_before, result.willmore_after
+    assert np.isfinite(numbers).all()
+    assert result.gain >= 0.0
+    assert [type(x) for x in result[1:7]] == [int, float, float, float, bool, str]
+    faces = np.asarray(faces, np.int32).reshape(-1, 3)
+    np.testing.assert_array_equal(result.faces.ravel(), faces.ravel()[result.corners.ravel()])
+    validate_connectivity(build(np.asarray(vertices, float).reshape(-1, 3), result.faces))
+    assert len(reference.edge_set(result.faces)) == len(reference.edge_set(faces))
+    changed = (result.faces != faces).any(axis=1).sum()
+    assert changed <= 2 * result.flips
+
+
+def test_signature_is_the_promised_one():
+    parameters = inspect.signature(optimize_flips).parameters
+    defaults = {name: p.default for name, p in parameters.items() if p.kind == p.KEYWORD_ONLY}
+    assert list(parameters)[:2] == ["vertices", "faces"]
+    assert defaults == {
+        "energy": "virtual willmore",
+        "search": "greedy",
+        "monotone": True,
+        "foldangle": 90.0,
+        "featuredeg": 180.0,
+        "selected_faces": None,
+        "locked_edges": None,
+        "maxflips": None,
+    }
+
+
+def test_the_paper_s_cube():
+    vertices, faces = meshes.cube(push=0.05)
+    result = optimize_flips(vertices, faces)
+    check(vertices, faces, result)
+    assert result.flips == 6
+    assert result.converged
+    assert result.reason == "no flip lowers the energy any more"
+    assert result.willmore_before == pytest.approx(45.7570, abs=5e-5)
+    assert result.willmore_after == pytest.approx(29.9173, abs=5e-5)
+    assert measures(vertices, result.faces).area == pytest.approx(6.02993, abs=5e-6)
+    assert np.bincount(result.faces.ravel())[8:].tolist() == [4] * 6
+
+
+def test_the_paper_s_cube_with_deeper_dents():
+    vertices, faces = meshes.cube(push=0.1)
+    result = optimize_flips(vertices, faces)
+    check(vertices, faces, result)
+    assert result.flips == 10
+    assert measures(vertices, result.faces).area == pytest.approx(5.56299, abs=5e-6)
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_rounding_does_not_decide_between_edges_equal_by_symmetry(seed):
+    """All edges of the cube are worth the same, and their order decides where the search ends."""
+    vertices, faces = meshes.cube(push=0.1)
+    wanted = optimize_flips(vertices, faces).faces
+    turned = (vertices - 0.3) @ rotation(seed).T + 0.7
+    np.testing.assert_array_equal(optimize_flips(turned, faces).faces, wanted)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize(
+    ("arguments", "energy", "wanted"),
+    [
+        ((2000, 0.3, 8), "virtual willmore", (1002.0, 118.307, 282.7, 0.273)),
+        ((2000, 0.3, 8), "willmore", (176.9, 118.127, 188.4, 0.495)),
+        ((2000, None, 1), "virtual willmore", (1775.9, 117.964, 211.7, 0.083)),
+        ((2000, None, 1), "willmore", (617.2, 117.935, 226.9, 0.092)),
+    ],
+)
+def test_the_paper_s_torus(arguments, energy, wanted):
+    vertices, faces = meshes.torus(*arguments)
+    result = optimize_flips(vertices, faces, energy=energy)
+    check(vertices, faces, result)
+    totals = measures(vertices, result.faces)
+    worst = np.quantile(triangle_shapes(vertices, result.faces), 0.01)
+    found = result.willmore_after, totals.area, totals.absolute_mean_curvature, worst
+    assert found == pytest.approx(wanted, rel=0.02)
+    assert result.willmore_after == pytest.approx(totals.willmore_energy, rel=1e-12)
+
+
+def test_the_hull_of_sphere_points_is_left_alone():
+    vertices, faces = meshes.sphere_hull(1000)
+    result = optimize_flips(vertices, faces)
+    np.testing.assert_array_equal(result.faces, faces)
+    assert result.flips == 0
+    assert result.gain == 0.0
+    assert result.converged
+    assert result.willmore_after == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("monotone", [True, False])
+def test_gain_is_before_minus_after_on_a_closed_mesh(monotone):
+    for vertices, faces in (BUMPY, meshes.torus(200, None, 1)):
+        result = optimize_flips(vertices, faces, energy="willmore", monotone=monotone)
+        drop = result.willmore_before - result.willmore_after
+        assert result.flips > 10
+        assert result.gain == pytest.approx(drop, rel=1e-9)
+
+
+@pytest.mark.parametrize("energy", ENERGIES)
+@pytest.mark.parametrize("mesh", [BUMPY, PATCH])
+def test_the_result_is_a_minimum_of_its_own_search(mesh, energy):
+    vertices, faces = mesh
+    result = optimize_flips(vertices, faces, energy=energy)
+    assert result.flips > 5
+    objective = reference.objective
+    assert objective(vertices, result.faces) < objective(vertices, faces)
+    again = optimize_flips(vertices, result.faces, energy=energy)
+    assert again.flips == 0
+    assert again.converged
+
+
+def rotation(seed):
+    matrix, _ = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))
+    return matrix * np.sign(np.linalg.det(matrix))
+
+
+@pytest.mark.parametrize("energy", ENERGIES)
+@pytest.mark.parametrize("monotone", [True, False])
+@pytest.mark.parametrize("mesh", [BUMPY, PATCH])
+def test_similarities_change_nothing(mesh, monotone, energy):
+    vertices, faces = mesh
+    options = {"energy": energy, "monotone": monotone}
+    wanted = optimize_flips(vertices, faces, **options)
+    diameter = np.linalg.norm(np.ptp(vertices, axis=0))
+    moved = [
+        vertices @ rotation(1).T,
+        vertices * 1e-6,
+        vertices * 1e6,
+        vertices * 1e-150,
+        vertices * 1e150,
+        vertices + np.array([0.3, -2.0, 5.0]),
+        vertices + np.full(3, 1e4 * diameter),
+        3.7 * vertices @ rotation(2).T + 100.0,
+    ]
+    for other in moved:
+        found = optimize_flips(other, faces, **options)
+        np.testing.assert_array_equal(found.faces, wanted.faces)
+        assert found.gain == pytest.approx(wanted.gain, rel=1e-7)
+
+
+@pytest.mark.parametrize("energy", ENERGIES)
+@pytest.mark.parametrize("mesh", [BUMPY, PATCH])
+def test_relabelling_changes_nothing_but_the_labels(mesh, energy):
+    vertices, faces = mesh
+    rng = np.random.default_rng(5)
+    new_label = rng.permutation(len(vertices))
+    moved = np.empty_like(vertices)
+    moved[new_label] = vertices
+    turned = [
+        np.roll(face, shift)
+        for face, shift in zip(faces, rng.integers(0, 3, len(faces)), strict=True)
+    ]
+    relabelled = new_label[np.array(turned)[rng.permutation(len(faces))]]
+    wanted = optimize_flips(vertices, faces, energy=energy)
+    found = optimize_flips(moved, relabelled, energy=energy)
+    assert rolled(found.faces) == rolled(new_label[wanted.faces])
+    assert found.flips == wanted.flips
+    assert found.gain == pytest.approx(wanted.gain, rel=1e-12)
+
+
+def test_two_runs_are_equal_and_input_is_neither_changed_nor_shared():
+    vertices, faces = BUMPY[0].copy(), BUMPY[1].copy()
+    vertices.flags.writeable = faces.flags.writeable = False
+    one, other = optimize_flips(vertices, faces), optimize_flips(vertices, faces)
+    for a, b in zip(one, other, strict=True):
+        np.testing.assert_array_equal(a, b)
+    none = optimize_flips(vertices, faces, maxflips=0)
+    np.testing.assert_array_equal(none.faces, faces)
+    assert not np.shares_memory(none.faces, faces)
+    assert not np.shares_memory(one.faces, other.faces)
+    assert (one.faces.flags.writeable, one.corners.flags.writeable) == (True, True)
+
+
+def test_maxflips_is_honest_about_what_is_left():
+    everything = optimize_flips(*BUMPY)
+    some = optimize_flips(*BUMPY, maxflips=3)
+    assert (some.flips, some.converged, some.reason) == (3, False, "maxflips reached")
+    enough = optimize_flips(*BUMPY, maxflips=everything.flips)
+    assert enough.converged
+    assert enough.reason == everything.reason
+    assert optimize_flips(*BUMPY, maxflips=10**30).flips == everything.flips
+
+
+@pytest.mark.parametrize("energy", ENERGIES)
+def test_unselected_faces_stay(energy):
+    vertices, faces = BUMPY
+    selected = vertices[faces].mean(axis=1)[:, 0] > 0.0
+    result = optimize_flips(vertices, faces, energy=energy, selected_faces=selected)
+    assert 0 < result.flips < optimize_flips(vertices, faces, energy=energy).flips
+    np.testing.assert_array_equal(result.faces[~selected], faces[~selected])
+    none = optimize_flips(vertices, faces, selected_faces=np.zeros(len(faces), bool))
+    assert none.flips == 0
+    assert none.converged
+
+
+def test_locked_edges_stay():
+    vertices, faces = BUMPY
+    gone = reference.edge_set(faces) - reference.edge_set(optimize_flips(vertices, faces).faces)
+    assert gone
+    result = optimize_flips(vertices, faces, locked_edges=sorted(gone))
+    assert gone <= reference.edge_set(result.faces)
+    everything = optimize_flips(vertices, faces, locked_edges=sorted(reference.edge_set(faces)))
+    assert everything.flips == 0
+    assert optimize_flips(vertices, faces, locked_edges=[]).flips > 0
+
+
+def test_features_stay():
+    """Half a cube is sharp: with a limit of 45 degrees only the diagonals of the sides may flip."""
+    vertices, faces = meshes.cube(push=0.1)
+    free = reference.edge_set(optimize_flips(vertices, faces).faces)
+    kept = reference.edge_set(optimize_flips(vertices, faces, featuredeg=70.0).faces)
+    cube_edges = {(a, b) for a in range(8) for b in range(8) if a < b and (a ^ b) in (1, 2, 4)}
+    assert not cube_edges <= free
+    assert cube_edges <= kept
+    assert optimize_flips(vertices, faces, featuredeg=0.0).flips == 0
+
+
+def test_the_fold_guard_keeps_normals_from_turning_over():
+    vertices, faces = meshes.torus(400, None, 4)
+    loose = optimize_flips(vertices, faces, foldangle=180.0, monotone=False)
+    tight = optimize_flips(vertices, faces, monotone=False)
+    assert _sharpest(vertices, tight.faces) < _sharpest(vertices, loose.faces)
+    before = triangle_shapes(vertices, faces).min()
+    assert triangle_shapes(vertices, tight.faces).min() >= min(before, 0.05)
+
+
+def _sharpest(vertices, faces):
+    i, j, k, l = vertices[reference.diamonds(faces)].transpose(1, 0, 2)
+    one, other = np.cross(j - i, k - i), np.cross(l - i, j - i)
+    sine = np.linalg.norm(np.cross(one, other), axis=1)
+    return np.arctan2(sine, np.einsum("ij,ij->i", one, other)).max()
+
+
+def test_corners_carry_texture_coordinates_across_flips():
+    """A seam down the middle of a patch, with other coordinates on either side of it."""
+    vertices, faces = meshes.grid(8, 8)
+    vertices[:, 2] = 0.3 * np.random.default_rng(0).random(len(vertices))
+    right = (vertices[faces].mean(axis=1)[:, 0] > 4.0).astype(float)
+    wedges = np.dstack([vertices[faces][:, :, :2], np.repeat(right, 3).reshape(-1, 3)])
+    seam = [edge for edge in reference.edge_set(faces) if (vertices[list(edge), 0] == 4.0).all()]
+    result = optimize_flips(vertices, faces, locked_edges=seam)
+    assert result.flips > 5
+    carried = wedges.reshape(-1, 3)[result.corners]
+    np.testing.assert_array_equal(carried[:, :, :2], vertices[result.faces][:, :, :2])
+    side = vertices[result.faces].mean(axis=1)[:, 0] > 4.0
+    np.testing.assert_array_equal(carried[:, :, 2], np.repeat(side, 3).reshape(-1, 3))
+
+
+def coincident():
+    vertices, faces = meshes.bumpy_sphere(60)
+    vertices[faces[0, 0]] = vertices[faces[0, 1]]
+    return vertices, faces
+
+
+def several_components():
+    vertices, faces = meshes.bumpy_sphere(30)
+    other, patch = meshes.patch(30)
+    return np.vstack([vertices, other + 5.0]), np.vstack([faces, patch + len(vertices)])
+
+
+def zero_area():
+    vertices, faces = meshes.grid(5, 5)
+    vertices[:, 2] = 0.3 * np.random.default_rng(0).random(len(vertices))
+    row = slice(12, 18)
+    vertices[row, 1:] = vertices[6:12, 1:] = (1.0, 0.0)
+    vertices[row, 0] += 0.5
+    return vertices, faces
+
+
+def mixed_orientation():
+    vertices, faces = meshes.bumpy_sphere(60)
+    faces[::3] = faces[::3, ::-1]
+    return vertices, faces
+
+
+ODD = {
+    "no faces": (np.random.default_rng(0).random((5, 3)), np.empty((0, 3), np.int32)),
+    "nothing": (np.empty((0, 3)), np.empty((0, 3), np.int32)),
+    "one triangle": (np.eye(3), np.array([(0, 1, 2)])),
+    "two triangles": meshes.two_triangles(),
+    "tetrahedron": meshes.tetrahedron(),
+    "back to back": (np.eye(3), np.array([(0, 1, 2), (2, 1, 0)])),
+    "moebius band": meshes.moebius_band(),
+    "fin": meshes.fin()[:2],
+    "bow tie": meshes.bow_tie(),
+    "duplicate faces": (BUMPY[0], np.vstack([BUMPY[1], BUMPY[1][:9]])),
+    "mixed orientation": mixed_orientation(),
+    "components": several_components(),
+    "coincident vertices": coincident(),
+    "all in one point": (np.ones_like(BUMPY[0]), BUMPY[1]),
+    "all on a line": (BUMPY[0] * (1.0, 0.0, 0.0), BUMPY[1]),
+    "zero area": zero_area(),
+    "flat": meshes.patch(60, height=0.0),
+    "flat grid": meshes.grid(6, 6),
+    "integers": (np.round(10 * BUMPY[0]).astype(int), BUMPY[1].astype(np.int64)),
+    "lists": (BUMPY[0].tolist(), BUMPY[1].tolist()),
+    "unreferenced": (np.vstack([BUMPY[0], [(1e200, 0.0, 0.0)]]), BUMPY[1]),
+}
+
+
+@pytest.mark.parametrize("name", ODD)
+@pytest.mark.parametrize("monotone", [True, False])
+@pytest.mark.parametrize("energy", ENERGIES)
+def test_odd_meshes_get_a_right_result(energy, monotone, name):
+    vertices, faces = ODD[name]
+    for foldangle in (90.0, 180.0):
+        result = optimize_flips(
+            vertices, faces, energy=energy, monotone=monotone, foldangle=foldangle
+        )
+        check(vertices, faces, result)
+        assert result.converged
+        if monotone:
+            objective = [
+                np.nan_to_num(reference.edge_angles(np.asarray(vertices, float), f)[1]).sum()
+                for f in (np.asarray(faces), result.faces)
+                if name not in ("coincident vertices", "all in one point", "all on a line")
+            ]
+            assert objective == sorted(objective, reverse=True) or np.ptp(objective) < 1e-9
+
+
+@pytest.mark.heavy
+def test_vertices_with_very_many_edges_cost_no_more_than_others():
+    """A double pyramid: each edge of its rim joins, once flipped, the two tips."""
+    count = 100_000
+    angle = 2.0 * np.pi * np.arange(count) / count
+    rim = np.column_stack([np.cos(angle), np.sin(angle), 0.01 * np.cos(7.0 * angle)])
+    here, ahead = np.arange(count), np.roll(np.arange(count), -1)
+    top = np.column_stack([here, ahead, np.full(count, count)])
+    bottom = np.column_stack([ahead, here, np.full(count, count + 1)])
+    vertices = np.vstack([rim, [(0.0, 0.0, 1.0), (0.0, 0.0, -1.0)]])
+    faces = np.vstack([top, bottom])
+    optimize_flips(vertices, faces, maxflips=0)
+    start = time.perf_counter()
+    optimize_flips(vertices, faces)
+    optimize_flips(vertices, faces, monotone=False, foldangle=180.0)
+    assert time.perf_counter() - start < 10.0
+
+
+def test_non_manifold_edges_stay():
+    vertices, faces, other = meshes.fin()
+    result = optimize_flips(vertices, faces)
+    assert result.flips > 0
+    assert sum({0, other} <= set(face) for face in result.faces.tolist()) == 3
+
+
+@pytest.mark.parametrize(
+    ("options", "error", "message"),
+    [
+        (
+            {"energy": "wilmore"},
+            ValueError,
+            "unknown energy 'wilmore'.*'virtual willmore', 'willmore'",
+        ),
+        ({"energy": None}, ValueError, "unknown energy None"),
+        ({"search": "slow"}, ValueError, "unknown search 'slow'.*'greedy'"),
+        ({"search": ["greedy"]}, ValueError, "unknown search"),
+        ({"monotone": 1}, TypeError, "monotone"),
+        ({"foldangle": -1.0}, ValueError, "foldangle"),
+        ({"featuredeg": 181}, ValueError, "featuredeg"),
+        ({"featuredeg": "sharp"}, TypeError, "featuredeg"),
+        ({"maxflips": -1}, ValueError, "maxflips"),
+        ({"maxflips": 2.5}, TypeError, "maxflips"),
+        ({"selected_faces": np.ones(5, bool)}, ValueError, r"\(116,\), not \(5,\)"),
+        ({"selected_faces": np.ones((116, 1), bool)}, ValueError, r"not \(116, 1\)"),
+        ({"selected_faces": np.ones(116)}, TypeError, "bool, not float64"),
+        ({"locked_edges": [(0, 1.5)]}, TypeError, "integers, not float64"),
+        ({"locked_edges": [0, 1]}, ValueError, r"shape \(count, 2\), not \(2,\)"),
+        ({"locked_edges": [(0, 60)]}, ValueError, r"locked_edges\[0\] = \(0, 60\)"),
+    ],
+)
+def test_wrong_options(options, error, message):
+    with pytest.raises(error, match=message):
+        optimize_flips(*BUMPY, **options)
+
+
+def test_wrong_meshes():
+    vertices, faces = BUMPY
+    with pytest.raises(ValueError, match=r"vertex 3 .*nan"):
+        optimize_flips(np.where(np.arange(60)[:, None] == 3, np.nan, vertices), faces)
+    with pytest.raises(ValueError, match=r"face .*not in 0 .. 58"):
+        optimize_flips(vertices[:-1], faces)
+    with pytest.raises(ValueError, match="face 116 has a repeated vertex"):
+        optimize_flips(vertices, [*faces, (1, 1, 2)])
+    with pytest.raises(TypeError, match="integers"):
+        optimize_flips(vertices, faces.astype(float))
+
+
+@pytest.mark.heavy
+def test_an_interrupt_is_served_at_once_and_changes_nothing():
+    vertices, faces = meshes.patch(60_000)
+    before = faces.copy()
+    optimize_flips(vertices, faces, maxflips=0)
+    started = []
+
+    def interrupt(*_):
+        started.append(time.perf_counter())
+        raise KeyboardInterrupt
+
+    previous = signal.signal(signal.SIGALRM, interrupt)
+    signal.setitimer(signal.ITIMER_REAL, 0.15)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            optimize_flips(vertices, faces)
+        elapsed = time.perf_counter() - started[0]
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, previous)
+    assert elapsed < 0.5
+    np.testing.assert_array_equal(faces, before)
+
+
+@pytest.mark.heavy
+def test_a_run_of_many_slices_ends_in_a_minimum():
+    vertices, faces = meshes.patch(20_000)
+    result = optimize_flips(vertices, faces, energy="willmore")
+    assert result.converged
+    assert result.flips > 5_000
+    assert willmore_energy(vertices, result.faces) == result.willmore_after
+    assert optimize_flips(vertices, result.faces, energy="willmore").flips == 0

@@ -1,0 +1,1 @@
+"""Everything that knows PyMeshLab; no other room imports it."""

@@ -1,0 +1,140 @@
+"""Parameters of a filter, read from keyword arguments as PyMeshLab reads those of its own."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, NamedTuple
+
+import pymeshlab
+
+
+class ParameterTypeError(pymeshlab.PyMeshLabException, RuntimeError):
+    """A value of a type that the parameter can't take; native filters raise `RuntimeError`."""
+
+
+class Parameter(NamedTuple):
+    """One parameter of a filter.
+
+    Attributes
+    ----------
+    name : str
+        The keyword: lower case, without underscores.
+    type : type
+        bool, int, float, or str for an enum.
+    default : object or callable
+        The default; a callable gets the current mesh, or None where there is no mesh to ask.
+    label, tooltip : str
+        What MeshLab would write beside and over the field.
+    choices : tuple of str
+        The values of an enum.
+    """
+
+    name: str
+    type: type
+    default: Any
+    label: str
+    tooltip: str
+    choices: tuple[str, ...] = ()
+
+    def default_for(self, mesh: pymeshlab.Mesh | None) -> Any:
+        """The default value for `mesh`; an enum's index."""
+        value = self.default(mesh) if callable(self.default) else self.default
+        return self.choices.index(value) if self.choices else value
+
+    def shown_default(self) -> str:
+        """The default without a mesh, as ``print_filter_parameter_list`` shows it."""
+        value = self.default(None) if callable(self.default) else self.default
+        if self.type is str:
+            return f"'{value}'"
+        return f"{value:g}" if self.type is float else str(value)
+
+    def read(self, value: Any) -> Any:
+        """The value that a caller gave, in the parameter's own type; an enum's index.
+
+        Raises
+        ------
+        ParameterTypeError
+            If `value` has a wrong type.
+        pymeshlab.InvalidEnumException
+            If an enum has no such value.
+        """
+        try:
+            return _READERS[self.type](self, value)
+        except (TypeError, OverflowError) as error:
+            raise ParameterTypeError(
+                f"Parameter {self.name}: {value!r} is a {type(value).__name__}, "
+                f"{_EXPECTED[self.type]} is expected."
+            ) from error
+
+
+def _read_bool(_: Parameter, value: Any) -> bool:
+    if not hasattr(value, "__bool__") and value is not None:
+        raise TypeError
+    return bool(value)
+
+
+def _read_int(_: Parameter, value: Any) -> int:
+    return operator.index(value)
+
+
+def _read_float(_: Parameter, value: Any) -> float:
+    if isinstance(value, (str, bytes)):
+        raise TypeError
+    return float(value)
+
+
+def _read_enum(parameter: Parameter, value: Any) -> int:
+    choices = parameter.choices
+    if isinstance(value, str):
+        if value not in choices:
+            known = "".join(f"'{choice}'; " for choice in choices)
+            raise pymeshlab.InvalidEnumException(
+                f"Enum '{value}' not found. Possible values are {known}"
+            )
+        return choices.index(value)
+    index = operator.index(value)
+    if not 0 <= index < len(choices):
+        raise pymeshlab.InvalidEnumException(
+            f"Enum {index} not valid. Must be a value between 0 and {len(choices)}"
+        )
+    return index
+
+
+_READERS: dict[type, Callable[[Parameter, Any], Any]] = {
+    bool: _read_bool,
+    int: _read_int,
+    float: _read_float,
+    str: _read_enum,
+}
+_EXPECTED = {
+    bool: "a bool",
+    int: "an int",
+    float: "a float",
+    str: "one of its names, or an index",
+}
+
+
+def read_all(
+    filter_name: str,
+    parameters: Iterable[Parameter],
+    given: Mapping[str, Any],
+    mesh: pymeshlab.Mesh | None,
+) -> dict[str, Any]:
+    """All values of a call: the given ones, and the defaults for `mesh`.
+
+    Raises
+    ------
+    pymeshlab.PyMeshLabException
+        For a keyword that is no parameter, with PyMeshLab's own words.
+    """
+    values = {parameter.name: parameter.default_for(mesh) for parameter in parameters}
+    by_name = {parameter.name: parameter for parameter in parameters}
+    for name, value in given.items():
+        if name not in by_name:
+            raise pymeshlab.PyMeshLabException(
+                f"Parameter {name} not found for filter {filter_name}. "
+                "Please check the documentation."
+            )
+        values[name] = by_name[name].read(value)
+    return values

@@ -1,0 +1,133 @@
+"""The binary PLY that MeshLab writes, as NumPy records: read, change, write.
+
+PLY is the one door through which PyMeshLab passes a mesh whole: flags (selection, faux edges),
+several textures with an index per face, radii. Only what MeshLab's own writer emits for a
+triangle mesh is understood here: little-endian, scalar properties, and lists of one fixed length.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+_SCALARS = {
+    "char": "i1",
+    "uchar": "u1",
+    "short": "<i2",
+    "ushort": "<u2",
+    "int": "<i4",
+    "uint": "<u4",
+    "float": "<f4",
+    "double": "<f8",
+}
+_LIST_LENGTHS = {"vertex_indices": 3, "texcoord": 6}
+_COUNT_SUFFIX = "_count"
+_TEXTURE_COMMENT = "comment TextureFile "
+_END = b"end_header\n"
+
+
+class PlyMesh(NamedTuple):
+    """A triangle mesh as PLY records.
+
+    Attributes
+    ----------
+    vertices, faces : structured ndarray
+        One record an element, one field a property. A list property ``p`` of fixed length k is
+        a field of shape (k,) behind a field ``p_count``.
+    edges : (e, 2) int32 ndarray
+        The edge elements (polylines), not the sides of the faces.
+    textures : tuple of str
+        Names of the texture images, in the order that ``texnumber`` counts.
+    """
+
+    vertices: np.ndarray
+    faces: np.ndarray
+    edges: np.ndarray
+    textures: tuple[str, ...]
+
+
+class _Element(NamedTuple):
+    name: str
+    size: int
+    fields: list[tuple]
+
+
+def _parse_header(lines: list[str]) -> tuple[list[_Element], tuple[str, ...]]:
+    elements: list[_Element] = []
+    textures = []
+    for line in lines:
+        if line.startswith(_TEXTURE_COMMENT):
+            textures.append(line[len(_TEXTURE_COMMENT) :])
+            continue
+        words = line.split()
+        if words[:1] == ["element"]:
+            elements.append(_Element(words[1], int(words[2]), []))
+        elif words[:2] == ["property", "list"]:
+            name = words[4]
+            elements[-1].fields.append((name + _COUNT_SUFFIX, _SCALARS[words[2]]))
+            elements[-1].fields.append((name, _SCALARS[words[3]], (_LIST_LENGTHS[name],)))
+        elif words[:1] == ["property"]:
+            elements[-1].fields.append((words[2], _SCALARS[words[1]]))
+    return elements, tuple(textures)
+
+
+def read(path: Path) -> PlyMesh:
+    """Read a triangle mesh that MeshLab wrote as binary PLY.
+
+    Raises
+    ------
+    ValueError
+        If a list has another length than a triangle's, or elements are missing.
+    KeyError
+        If a property has an unknown type or is an unknown list.
+    """
+    data = path.read_bytes()
+    start = data.index(_END) + len(_END)
+    elements, textures = _parse_header(data[:start].decode("utf-8", "surrogateescape").split("\n"))
+    blocks: dict[str, np.ndarray] = {}
+    for element in elements:
+        block = np.frombuffer(data, np.dtype(element.fields), element.size, start).copy()
+        start += block.nbytes
+        for name, length in _LIST_LENGTHS.items():
+            counts = name + _COUNT_SUFFIX
+            if counts in (block.dtype.names or ()) and (block[counts] != length).any():
+                raise ValueError(f"{path.name}: a list {name} does not have {length} entries")
+        blocks[element.name] = block
+    return PlyMesh(blocks["vertex"], blocks["face"], np.empty((0, 2), np.int32), textures)
+
+
+def _type_name(dtype: np.dtype) -> str:
+    return next(name for name, code in _SCALARS.items() if np.dtype(code) == dtype)
+
+
+def _properties(records: np.ndarray) -> list[str]:
+    lines = []
+    fields: Any = records.dtype.fields
+    for name in records.dtype.names or ():
+        if name.endswith(_COUNT_SUFFIX):
+            continue
+        dtype = fields[name][0]
+        if dtype.subdtype:
+            count = fields[name + _COUNT_SUFFIX][0]
+            item = dtype.subdtype[0]
+            lines.append(f"property list {_type_name(count)} {_type_name(item)} {name}")
+        else:
+            lines.append(f"property {_type_name(dtype)} {name}")
+    return lines
+
+
+def write(path: Path, mesh: PlyMesh) -> None:
+    """Write `mesh` to `path`, in the form that `read` and MeshLab read."""
+    edges = np.ascontiguousarray(mesh.edges, "<i4")
+    header = ["ply", "format binary_little_endian 1.0"]
+    header += [_TEXTURE_COMMENT + name for name in mesh.textures]
+    header += [f"element vertex {len(mesh.vertices)}", *_properties(mesh.vertices)]
+    header += [f"element face {len(mesh.faces)}", *_properties(mesh.faces)]
+    if len(edges):
+        header += [f"element edge {len(edges)}", "property int vertex1", "property int vertex2"]
+    with path.open("wb") as file:
+        file.write("\n".join(header).encode("utf-8", "surrogateescape") + b"\n" + _END)
+        for block in (mesh.vertices, mesh.faces, edges):
+            file.write(block.tobytes())

@@ -1,0 +1,449 @@
+"""Nothing of the mesh is lost: each promise on a mesh that has everything, then on real meshes."""
+
+import numpy as np
+import pymeshlab
+import pytest
+
+from meshlab_willmore.meshset import exchange
+from meshlab_willmore.meshset.sides import fixed_edges
+from meshlab_willmore.meshset.snapshot import take
+from tests import meshes
+from tests.meshset.conftest import FLIP, SAMPLES, random_transform, set_of
+
+ATTRIBUTES = ["My Attr", "x", "w"]
+
+
+def rich_set():
+    """A mesh with all that `pymeshlab.Mesh` and `MeshSet` can put on one."""
+    vertices, faces = meshes.bumpy_sphere(300)
+    n, m = len(vertices), len(faces)
+    rng = np.random.default_rng(7)
+    ms = set_of(
+        vertices,
+        faces,
+        edge_matrix=np.array([[0, 5], [9, 2]]),
+        v_scalar_array=rng.normal(size=n),
+        f_scalar_array=rng.normal(size=m),
+        v_color_matrix=rng.random((n, 4)),
+        f_color_matrix=rng.random((m, 4)),
+        v_tex_coords_matrix=rng.random((n, 2)),
+    )
+    ms.compute_selection_by_condition_per_face(condselect="fi > 99")
+    ms.compute_selection_by_condition_per_vertex(condselect="vi < 99")
+    ms.set_matrix(transformmatrix=random_transform(), freeze=False)
+    ms.current_mesh().set_label("a label.with ümlaut")
+    ms.set_current_mesh_visibility(False)
+    mesh = ms.current_mesh()
+    for name in ATTRIBUTES:
+        mesh.add_vertex_custom_scalar_attribute(rng.normal(size=n), name)
+        mesh.add_vertex_custom_point_attribute(rng.normal(size=(n, 3)), name + "P")
+        mesh.add_face_custom_scalar_attribute(rng.normal(size=m), name + "-f")
+        mesh.add_face_custom_point_attribute(rng.normal(size=(m, 3)), name + ".F")
+    return ms
+
+
+STATE = (
+    "vertex_matrix",
+    "edge_matrix",
+    "vertex_color_array",
+    "vertex_scalar_array",
+    "vertex_tex_coord_matrix",
+    "vertex_selection_array",
+    "face_color_array",
+    "face_scalar_array",
+    "face_selection_array",
+    "transform_matrix",
+    "label",
+    "is_visible",
+    "has_vertex_color",
+    "has_vertex_scalar",
+    "has_vertex_tex_coord",
+    "has_face_color",
+    "has_face_scalar",
+    "has_wedge_tex_coord",
+    "texture_number",
+    "vertex_number",
+    "face_number",
+    "edge_number",
+    "is_compact",
+)
+NEEDS = {
+    "vertex_color_array": "has_vertex_color",
+    "vertex_scalar_array": "has_vertex_scalar",
+    "vertex_tex_coord_matrix": "has_vertex_tex_coord",
+    "face_color_array": "has_face_color",
+    "face_scalar_array": "has_face_scalar",
+}
+
+
+def state(ms):
+    """All that PyMeshLab can tell of the current mesh, but for faces, wedges and normals."""
+    mesh = ms.current_mesh()
+    shown = {"texture names": sorted(mesh.textures())}
+    for name in STATE:
+        if name not in NEEDS or getattr(mesh, NEEDS[name])():
+            shown[name] = getattr(mesh, name)()
+    shown["attributes"] = sorted(ms.filter_parameter_values("ply"))
+    return shown
+
+
+def assert_same_state(left, right):
+    assert left.keys() == right.keys()
+    for name in left:
+        np.testing.assert_array_equal(left[name], right[name], err_msg=name)
+
+
+def test_everything_survives():
+    ms = rich_set()
+    before = state(ms)
+    mesh = ms.current_mesh()
+    readers = {
+        "": mesh.vertex_custom_scalar_attribute_array,
+        "P": mesh.vertex_custom_point_attribute_matrix,
+        "-f": mesh.face_custom_scalar_attribute_array,
+        ".F": mesh.face_custom_point_attribute_matrix,
+    }
+    attributes = {(n, s): read(n + s) for n in ATTRIBUTES for s, read in readers.items()}
+    del mesh, readers
+    assert ms.apply_filter(FLIP)["flips"] > 0
+    assert_same_state(state(ms), before)
+    mesh = ms.current_mesh()
+    readers = {
+        "": mesh.vertex_custom_scalar_attribute_array,
+        "P": mesh.vertex_custom_point_attribute_matrix,
+        "-f": mesh.face_custom_scalar_attribute_array,
+        ".F": mesh.face_custom_point_attribute_matrix,
+    }
+    for (name, suffix), values in attributes.items():
+        np.testing.assert_array_equal(readers[suffix](name + suffix), values, err_msg=name)
+
+
+def test_carried_attributes_can_be_used_and_saved(tmp_path):
+    ms = set_of(*meshes.bumpy_sphere(100))
+    values = np.random.default_rng(0).normal(size=100)
+    ms.current_mesh().add_vertex_custom_scalar_attribute(values, "w")
+    ms.apply_filter(FLIP)
+    ms.compute_scalar_by_function_per_vertex(q="w")
+    np.testing.assert_array_equal(ms.current_mesh().vertex_scalar_array(), values)
+    ms.save_current_mesh(str(tmp_path / "saved.ply"), __ca_vs__w=True)
+    assert b"property double w" in (tmp_path / "saved.ply").read_bytes()
+
+
+def test_a_mesh_without_extras_gets_none():
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(SAMPLES / "cow.obj"))
+    before = state(ms)
+    assert not before["has_vertex_color"]
+    ms.apply_filter(FLIP)
+    assert_same_state(state(ms), before)
+
+
+def test_normals_are_those_of_the_new_faces(bumpy):
+    bumpy.apply_filter(FLIP)
+    mesh = bumpy.current_mesh()
+    fresh = set_of(mesh.vertex_matrix(), mesh.face_matrix()).current_mesh()
+    # A fresh Mesh gets its normals from PyMeshLab, as after a native filter.
+    assert fresh is not None
+    np.testing.assert_allclose(mesh.face_normal_matrix(), _unit_normals(mesh), atol=1e-12)
+    inner = np.einsum("ij,ij->i", mesh.vertex_normal_matrix(), mesh.vertex_matrix())
+    assert (inner > 0).mean() > 0.9
+
+
+def _unit_normals(mesh):
+    a, b, c = mesh.vertex_matrix()[mesh.face_matrix()].transpose(1, 0, 2)
+    normals = np.cross(b - a, c - a)
+    return normals / np.linalg.norm(normals, axis=1)[:, None]
+
+
+def test_faces_keep_their_slots(bumpy):
+    before = bumpy.current_mesh().face_matrix()
+    bumpy.apply_filter(FLIP, maxflips=1)
+    after = bumpy.current_mesh().face_matrix()
+    assert (before != after).any(axis=1).sum() == 2
+
+
+# --- selection ---------------------------------------------------------------------------------
+
+
+def test_only_selected_faces_change(bumpy):
+    bumpy.compute_selection_by_condition_per_face(condselect="fi > 299")
+    before = bumpy.current_mesh().face_matrix()
+    assert bumpy.apply_filter(FLIP)["flips"] > 0, "selection is on by default"
+    after = bumpy.current_mesh().face_matrix()
+    np.testing.assert_array_equal(before[:300], after[:300])
+    assert bumpy.apply_filter(FLIP, selection=False)["flips"] > 0
+    assert (before[:300] != bumpy.current_mesh().face_matrix()[:300]).any()
+
+
+def test_selection_without_selected_faces_flips_nothing(bumpy):
+    assert bumpy.apply_filter(FLIP, selection=True)["flips"] == 0
+
+
+# --- polygons ----------------------------------------------------------------------------------
+
+
+def quad_set(height=0.4):
+    """A bumpy grid, quads on the left, triangles on the right."""
+    vertices, faces = meshes.grid(8, 8)
+    rng = np.random.default_rng(1)
+    vertices = vertices + np.column_stack([np.zeros((81, 2)), height * rng.random(81)])
+    polygons = []
+    for two in faces.reshape(-1, 2, 3):
+        (a, b, c), (_, _, d) = two
+        left = vertices[a, 0] < 4
+        polygons += [np.array([a, b, c, d])] if left else [np.array(t) for t in two]
+    ms = pymeshlab.MeshSet()
+    ms.add_mesh(pymeshlab.Mesh(vertex_matrix=vertices, face_list_of_indices=polygons), "quads")
+    return ms
+
+
+def polygons_of(ms):
+    return sorted(tuple(sorted(p)) for p in ms.current_mesh().polygonal_face_list() if len(p) > 3)
+
+
+def test_polygons_survive():
+    ms = quad_set()
+    before = polygons_of(ms)
+    assert len(before) == 32
+    assert ms.apply_filter(FLIP)["flips"] > 0
+    assert polygons_of(ms) == before
+
+
+def test_side_bits_move_with_their_sides():
+    """Flips beside polygons turn faces in their slots: the faux bit has to stay on its side."""
+    ms = quad_set()
+    snapshot = take(ms)
+    fixed = {frozenset(edge) for edge in fixed_edges(snapshot).tolist()}
+    assert len(fixed) == 32
+    ms.apply_filter(FLIP, selection=False, energy="willmore", monotone=False)
+    after = take(ms)
+    assert {frozenset(edge) for edge in fixed_edges(after).tolist()} == fixed
+
+
+# --- textures ----------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def textured():
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(SAMPLES / "bunny10k_textured.obj"))
+    return ms
+
+
+def wedges_by_corner(ms):
+    """{(face's texture chart corner)}: the set of (vertex, u, v) over all corners."""
+    mesh = ms.current_mesh()
+    corners = np.column_stack([mesh.face_matrix().ravel(), mesh.wedge_tex_coord_matrix()])
+    return np.unique(corners, axis=0)
+
+
+def pixels(image, folder):
+    path = folder / "pixels.bmp"
+    image.save(str(path))
+    return path.read_bytes()
+
+
+def test_textures_survive(textured, tmp_path):
+    before = state(textured)
+    image = pixels(textured.current_mesh().texture(0), tmp_path)
+    coordinates = wedges_by_corner(textured)
+    assert textured.apply_filter(FLIP)["flips"] > 0
+    assert_same_state(state(textured), before)
+    assert pixels(textured.current_mesh().texture(0), tmp_path) == image
+    after = wedges_by_corner(textured)
+    rows = {tuple(row) for row in coordinates}
+    assert all(tuple(row) in rows for row in after), "each corner takes a coordinate of its vertex"
+
+
+def seams_of(ms):
+    snapshot = take(ms)
+    return {frozenset(edge) for edge in fixed_edges(snapshot).tolist()}
+
+
+def test_seams_stay(textured):
+    before = seams_of(textured)
+    assert len(before) > 100
+    textured.apply_filter(FLIP)
+    assert seams_of(textured) == before
+
+
+def test_the_image_of_a_textured_face_stays_in_its_chart(textured):
+    """No new face stretches over the texture: its area there stays positive and in scale."""
+    before = _texture_areas(textured)
+    textured.apply_filter(FLIP)
+    after = _texture_areas(textured)
+    assert abs(after.sum() - before.sum()) < 1e-6 * abs(before).sum()
+
+
+def _texture_areas(ms):
+    a, b, c = ms.current_mesh().wedge_tex_coord_matrix().reshape(-1, 3, 2).transpose(1, 0, 2)
+    return 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+
+
+def two_textures(tmp_path, names=("first.png", "second.png")):
+    """A bumpy grid whose left half uses one image and whose right half uses another."""
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(SAMPLES / "bunny10k_textured.obj"))
+    tmp_path = tmp_path / "mesh"
+    for name in names:
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        exchange._save_image(ms.current_mesh().texture(0), tmp_path / name)
+    vertices, faces = meshes.grid(10, 10)
+    vertices[:, 2] = np.random.default_rng(2).random(len(vertices))
+    lines = [f"v {x} {y} {z}" for x, y, z in vertices]
+    lines += [f"vt {x / 10} {y / 10}" for x, y, _ in vertices]
+    current = ""
+    materials = []
+    for face in faces:
+        name = names[int(vertices[face, 0].mean() > 5)]
+        if name != current:
+            lines.append(f"usemtl material{names.index(name)}")
+            current = name
+        lines.append("f " + " ".join(f"{v + 1}/{v + 1}" for v in face))
+    for n, name in enumerate(names):
+        materials += [f"newmtl material{n}", f"map_Kd {name}"]
+    (tmp_path / "two.mtl").write_text("\n".join(materials) + "\n")
+    (tmp_path / "two.obj").write_text("mtllib two.mtl\n" + "\n".join(lines) + "\n")
+    both = pymeshlab.MeshSet()
+    both.load_new_mesh(str(tmp_path / "two.obj"))
+    return both
+
+
+NAMES = [
+    ("first.png", "second.png"),
+    ("images/first.jpg", "second.png"),
+    ("../images/first.png", "../../second.png"),
+]
+
+
+@pytest.mark.parametrize("names", NAMES)
+def test_several_textures_survive(tmp_path, names):
+    ms = two_textures(tmp_path, names)
+    assert ms.current_mesh().texture_number() == 2
+    before = state(ms)
+    numbers = take(ms).ply.faces["texnumber"]
+    assert set(numbers) == {0, 1}
+    assert ms.apply_filter(FLIP)["flips"] > 0
+    assert_same_state(state(ms), before)
+    after = take(ms)
+    np.testing.assert_array_equal(after.ply.faces["texnumber"], numbers)
+    middle = after.vertices[after.faces].mean(axis=1)[:, 0]
+    assert ((middle > 5) == (numbers == numbers[-1])).all(), "no flip across the two textures"
+
+
+@pytest.mark.parametrize("name", ["with space.png", "photo.jpg", "scan.tga"])
+def test_a_texture_keeps_any_name(textured, tmp_path, name):
+    exchange._save_image(textured.current_mesh().texture(0), tmp_path / name)
+    textured.set_texture_per_mesh(textname=str(tmp_path / name))
+    image = pixels(textured.current_mesh().texture(0), tmp_path)
+    before = state(textured)
+    textured.apply_filter(FLIP)
+    assert_same_state(state(textured), before)
+    assert pixels(textured.current_mesh().textures()[name], tmp_path) == image
+
+
+def test_the_current_folder_and_the_users_files_stay(textured, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    textured.apply_filter(FLIP)
+    assert not list(tmp_path.iterdir())
+
+
+# --- what can't be carried ---------------------------------------------------------------------
+
+
+def test_what_would_be_lost_is_an_error_before_anything_changes(bumpy):
+    bumpy.compute_curvature_principal_directions_per_vertex()
+    before = state(bumpy)
+    faces = bumpy.current_mesh().face_matrix()
+    mesh = bumpy.current_mesh()
+    with pytest.raises(pymeshlab.PyMeshLabException, match="curvature directions") as caught:
+        bumpy.apply_filter(FLIP)
+    assert "allowloss" in str(caught.value)
+    assert bumpy.current_mesh() is mesh
+    assert_same_state(state(bumpy), before)
+    np.testing.assert_array_equal(mesh.face_matrix(), faces)
+    del mesh
+    assert bumpy.apply_filter(FLIP, allowloss=True)["flips"] > 0
+    after = state(bumpy)
+    assert_same_state(after, before)
+
+
+def test_a_texture_without_image_is_an_error(textured):
+    copy = pymeshlab.MeshSet()
+    copy.add_mesh(textured.current_mesh())
+    assert copy.current_mesh().texture_number() == 1
+    with pytest.raises(pymeshlab.PyMeshLabException, match="TextureDouble_A.png"):
+        copy.apply_filter(FLIP)
+    assert copy.apply_filter(FLIP, allowloss=True)["flips"] > 0
+
+
+def test_what_pymeshlab_drops_is_noticed(bumpy, monkeypatch):
+    """If PyMeshLab came to read its files otherwise, the mesh would stay as it is."""
+    carry = exchange._load
+
+    def forgetful(ms, path, snapshot):
+        carry(ms, path, snapshot)
+        ms.set_selection_all()
+
+    faces = bumpy.current_mesh().face_matrix()
+    monkeypatch.setattr(exchange, "_load", forgetful)
+    with pytest.raises(pymeshlab.PyMeshLabException, match="vertex selection, face selection"):
+        bumpy.apply_filter(FLIP)
+    np.testing.assert_array_equal(bumpy.current_mesh().face_matrix(), faces)
+
+
+def test_a_full_disk_changes_nothing(bumpy, monkeypatch, tmp_path):
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    faces = bumpy.current_mesh().face_matrix()
+    monkeypatch.setattr(exchange.ply, "write", full)
+    with pytest.raises(pymeshlab.PyMeshLabException, match="No space left"):
+        bumpy.apply_filter(FLIP)
+    np.testing.assert_array_equal(bumpy.current_mesh().face_matrix(), faces)
+    assert len(bumpy) == 1
+
+
+# --- real meshes -------------------------------------------------------------------------------
+
+REAL = [
+    "airplane.obj",
+    "bone.ply",
+    "bunny.obj",
+    "bunny10k_textured.obj",
+    "colored_airplane.ply",
+    "cow.obj",
+    "cube.obj",
+    "rangemaps/face000.ply",
+]
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("name", REAL)
+def test_real_meshes_keep_everything(name, tmp_path):
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(SAMPLES / name))
+    ms.meshing_remove_duplicate_vertices()
+    ms.meshing_remove_duplicate_faces()
+    ms.meshing_remove_unreferenced_vertices()
+    ms.compute_selection_by_condition_per_face(condselect="fi > 40")
+    mesh = ms.current_mesh()
+    mesh.add_face_custom_scalar_attribute(np.arange(mesh.face_number()) / 3.0, "Third")
+    edges = take(ms)
+    faces = mesh.face_matrix()
+    del mesh
+    before = state(ms)
+    returned = ms.apply_filter(FLIP)
+    assert_same_state(state(ms), before)
+    after = ms.current_mesh().face_matrix()
+    np.testing.assert_array_equal(after[:41], faces[:41])
+    assert returned["willmore_after"] <= returned["willmore_before"]
+    thirds = ms.current_mesh().face_custom_scalar_attribute_array("Third")
+    np.testing.assert_array_equal(thirds, np.arange(len(faces)) / 3.0)
+    changed = (faces != after).any(axis=1)
+    assert returned["flips"] == 0 or changed.any()
+    assert {*map(frozenset, fixed_edges(edges).tolist())} == seams_of(ms)
+    # The chain goes on, and the result can be saved.
+    ms.apply_coord_taubin_smoothing(stepsmoothnum=1)
+    ms.save_current_mesh(str(tmp_path / "out.ply"))
+    assert (tmp_path / "out.ply").stat().st_size > 0

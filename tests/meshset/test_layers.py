@@ -1,0 +1,356 @@
+"""Nobody who holds a mesh or counts layers is harmed by a flip."""
+
+import contextlib
+import gc
+import os
+import signal
+import subprocess
+import sys
+import threading
+
+import numpy as np
+import pymeshlab
+import pytest
+
+from meshlab_willmore.meshset import interrupts, layers
+from tests import meshes
+from tests.meshset.conftest import FLIP, SAMPLES, random_transform, set_of
+
+
+def many_meshes(ms, count=300):
+    """Fill memory with other meshes, so that a dangling pointer would show."""
+    for n in range(count):
+        ms.add_mesh(pymeshlab.Mesh(*meshes.sphere_hull(20 + n % 30)), set_as_current=False)
+
+
+def test_a_held_mesh_still_reads_its_own_data(bumpy):
+    held = bumpy.current_mesh()
+    vertices, faces = held.vertex_matrix(), held.face_matrix()
+    assert bumpy.apply_filter(FLIP)["flips"] > 0
+    assert (bumpy.current_mesh().face_matrix() != faces).any()
+    other = pymeshlab.MeshSet()
+    for target in (bumpy, other):
+        many_meshes(target)
+    np.testing.assert_array_equal(held.vertex_matrix(), vertices)
+    np.testing.assert_array_equal(held.face_matrix(), faces)
+
+
+def test_every_reference_counts_also_one_in_a_container(bumpy):
+    faces = bumpy.current_mesh().face_matrix()
+    keep = {"mesh": [bumpy.mesh(0)]}
+    bumpy.apply_filter(FLIP)
+    many_meshes(bumpy)
+    np.testing.assert_array_equal(keep["mesh"][0].face_matrix(), faces)
+
+
+def test_a_mesh_in_garbage_does_not_count(bumpy):
+    cycle = [bumpy.current_mesh()]
+    cycle.append(cycle)
+    gc.disable()
+    try:
+        del cycle
+        bumpy.apply_filter(FLIP)
+    finally:
+        gc.enable()
+    assert len(bumpy) == 1
+
+
+def test_a_held_mesh_is_parked_hidden_and_under_another_name(bumpy):
+    held = bumpy.current_mesh()
+    new_id = bumpy.apply_filter(FLIP)["mesh_id"]
+    assert new_id == bumpy.current_mesh_id() != held.id()
+    assert not held.is_visible()
+    assert bumpy.current_mesh().is_visible()
+    assert bumpy.current_mesh().label() == "mesh"
+    assert held.label() == "mesh (before Willmore flips)"
+
+
+def test_a_parked_layer_goes_when_it_is_free(bumpy):
+    held = bumpy.current_mesh()
+    bumpy.apply_filter(FLIP)
+    bumpy.meshing_remove_duplicate_vertices()
+    assert len(bumpy) == 2
+    del held
+    bumpy.meshing_remove_duplicate_vertices()
+    assert len(bumpy) == 1
+    assert bumpy.current_mesh_id() == 1
+
+
+def test_sweeping_leaves_the_current_mesh_and_the_script_alone(bumpy):
+    held = bumpy.current_mesh()
+    bumpy.apply_filter(FLIP)
+    bumpy.set_current_mesh(held.id())
+    del held
+    before = script_of(bumpy)
+    layers.sweep(bumpy)
+    assert len(bumpy) == 2, "the current mesh must not be swept away"
+    bumpy.set_current_mesh(1)
+    layers.sweep(bumpy)
+    assert len(bumpy) == 1
+    assert script_of(bumpy) == before
+
+
+def test_a_parked_layer_that_the_user_deleted_is_forgotten(bumpy):
+    held = bumpy.current_mesh()
+    bumpy.apply_filter(FLIP)
+    bumpy.set_current_mesh(held.id())
+    del held
+    bumpy.delete_current_mesh()
+    bumpy.meshing_remove_duplicate_vertices()
+    assert len(bumpy) == 1
+
+
+def test_a_loop_over_the_meshes_ends_and_flips_each():
+    ms = pymeshlab.MeshSet()
+    for seed in range(3):
+        ms.add_mesh(pymeshlab.Mesh(*meshes.bumpy_sphere(60, seed)))
+    flips = []
+    for mesh in ms:
+        ms.set_current_mesh(mesh.id())
+        flips.append(ms.apply_filter(FLIP)["flips"])
+    assert all(n > 0 for n in flips[:3])
+    assert not any(flips[3:]), "flipped meshes have nothing left to flip"
+
+
+@pytest.mark.parametrize("wanted", [0, 1, 7])
+def test_the_id_of_the_only_mesh_stays(wanted):
+    ms = pymeshlab.MeshSet()
+    for _ in range(wanted):
+        ms.add_mesh(pymeshlab.Mesh(*meshes.tetrahedron()))
+    ms.add_mesh(pymeshlab.Mesh(*meshes.bumpy_sphere(60)), "last")
+    for _ in range(wanted):
+        ms.set_current_mesh(min(m.id() for m in ms))
+        ms.delete_current_mesh()
+    assert (len(ms), ms.current_mesh_id()) == (1, wanted)
+    assert ms.apply_filter(FLIP)["mesh_id"] == wanted
+    assert (len(ms), ms.current_mesh_id(), ms.current_mesh().label()) == (1, wanted, "last")
+    ms.add_mesh(pymeshlab.Mesh(*meshes.tetrahedron()))
+    assert ms.current_mesh_id() == wanted + 1, "the count of ids goes on where it was"
+
+
+def test_other_meshes_keep_their_ids_and_data(bumpy):
+    others = [pymeshlab.Mesh(*meshes.sphere_hull(20 + n)) for n in range(3)]
+    for mesh in others:
+        bumpy.add_mesh(mesh, set_as_current=False)
+    returned = bumpy.apply_filter(FLIP)
+    assert len(bumpy) == 4
+    assert returned["mesh_id"] == bumpy.current_mesh_id() == 4
+    for n, mesh in enumerate(others):
+        np.testing.assert_array_equal(bumpy.mesh(n + 1).face_matrix(), mesh.face_matrix())
+
+
+def test_nothing_to_flip_leaves_the_very_mesh():
+    ms = set_of(*meshes.sphere_hull(60))
+    ms.add_mesh(pymeshlab.Mesh(*meshes.tetrahedron()))
+    ms.set_current_mesh(0)
+    held = ms.current_mesh()
+    assert ms.apply_filter(FLIP)["flips"] == 0
+    assert ms.current_mesh() is held
+    assert len(ms) == 2
+
+
+def test_rasters_stay(bumpy, tmp_path):
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(SAMPLES / "bunny10k_textured.obj"))
+    picture = tmp_path / "picture.png"
+    ms.current_mesh().texture(0).save(str(picture))
+    bumpy.load_new_raster(str(picture))
+    bumpy.apply_filter(FLIP)
+    assert bumpy.raster_number() == 1
+
+
+# --- without a trace ---------------------------------------------------------------------------
+
+
+def script_of(ms):
+    path = layers.Path(layers.tempfile.mkdtemp()) / "script.mlx"
+    ms.save_filter_script(str(path))
+    return path.read_text()
+
+
+def test_the_filter_script_holds_the_users_steps_only(bumpy):
+    bumpy.add_mesh(pymeshlab.Mesh(*meshes.tetrahedron()), set_as_current=False)
+    bumpy.set_matrix(transformmatrix=random_transform(), freeze=False)
+    bumpy.compute_selection_by_condition_per_face(condselect="fi > 2 && fi < 1000")
+    bumpy.set_selection_none()
+    before = script_of(bumpy)
+    assert before.count("<filter") == 3
+    bumpy.apply_filter(FLIP)
+    bumpy.compute_scalar_by_willmore_energy_per_vertex()
+    assert script_of(bumpy) == before
+
+
+def test_an_empty_filter_script_stays_empty(bumpy):
+    bumpy.add_mesh(pymeshlab.Mesh(*meshes.tetrahedron()), set_as_current=False)
+    bumpy.apply_filter(FLIP)
+    assert "<filter" not in script_of(bumpy)
+
+
+def test_nothing_is_printed(bumpy, capfd):
+    bumpy.add_mesh(pymeshlab.Mesh(*meshes.tetrahedron()), set_as_current=False)
+    bumpy.set_selection_none()
+    capfd.readouterr()
+    bumpy.apply_filter(FLIP)
+    bumpy.compute_scalar_by_willmore_energy_per_vertex()
+    bumpy.get_willmore_measures()
+    assert capfd.readouterr() == ("", "")
+
+
+def test_muted_hides_c_output_and_nothing_else(capfd):
+    pymeshlab.print_pymeshlab_version()
+    with layers.muted():
+        pymeshlab.print_pymeshlab_version()
+    print("python")
+    pymeshlab.print_pymeshlab_version()
+    sys.stdout.flush()
+    layers._flush_c_streams()
+    lines = capfd.readouterr().out.split("\n")
+    assert sum(line.startswith("PyMeshLab") for line in lines) == 2
+    assert "python" in lines
+
+
+def test_verbosity_is_restored(capfd):
+    ms = pymeshlab.MeshSet(verbose=True)
+    ms.add_mesh(pymeshlab.Mesh(*meshes.bumpy_sphere(60)))
+    ms.set_matrix(transformmatrix=random_transform(), freeze=False)
+    capfd.readouterr()
+    ms.apply_filter(FLIP)
+    ours = capfd.readouterr().out
+    assert ours.count("Applying filter") == 1, "the helpers' filters are silent"
+    assert "Loading" not in ours
+    ms.meshing_remove_duplicate_vertices()
+    layers._flush_c_streams()
+    assert "Applying filter meshing_remove_duplicate_vertices" in capfd.readouterr().out
+
+
+# --- interrupts --------------------------------------------------------------------------------
+
+
+@pytest.mark.skipif(os.name == "nt", reason="no signals to send")
+def test_an_interrupt_waits_until_the_set_is_whole(bumpy):
+    order = []
+
+    def load(target):
+        os.kill(os.getpid(), signal.SIGINT)
+        target.add_mesh(pymeshlab.Mesh(*meshes.octahedron()))
+        order.append("loaded")
+
+    who = layers.identity(bumpy.current_mesh())
+    trial = set_of(*meshes.octahedron())
+    with pytest.raises(KeyboardInterrupt):
+        layers.replace_current(bumpy, trial, load, who)
+    assert order == ["loaded"]
+    assert bumpy.current_mesh().face_number() == 8
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_an_interrupt_that_is_swallowed_on_the_way_is_not_lost():
+    def swallow():
+        with contextlib.suppress(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+
+    def stumble():
+        swallow()
+        raise ValueError("a consequence")
+
+    with pytest.raises(KeyboardInterrupt), interrupts.kept():
+        swallow()
+    with pytest.raises(KeyboardInterrupt), interrupts.kept():
+        stumble()
+    with pytest.raises(ValueError, match="of its own"), interrupts.kept():
+        raise ValueError("of its own")
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_an_ignored_interrupt_stays_ignored():
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        for context in (interrupts.kept, interrupts.deferred):
+            with context():
+                signal.raise_signal(signal.SIGINT)
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def test_a_thread_that_is_not_the_main_one_can_flip(bumpy):
+    results = []
+    thread = threading.Thread(target=lambda: results.append(bumpy.apply_filter(FLIP)))
+    thread.start()
+    thread.join()
+    assert results[0]["flips"] > 0
+
+
+def test_a_failing_load_leaves_a_mesh(bumpy):
+    def load(_):
+        raise RuntimeError("no more disk")
+
+    trial = set_of(*meshes.octahedron())
+    with pytest.raises(RuntimeError, match="no more disk"):
+        layers.replace_current(bumpy, trial, load, layers.identity(bumpy.current_mesh()))
+    assert bumpy.current_mesh().face_number() == 8
+
+
+INTERRUPTED = """
+import os, signal, sys, threading, time
+import numpy as np, pymeshlab, meshlab_willmore
+sys.path.insert(0, sys.argv[1])
+from tests import meshes
+ms = pymeshlab.MeshSet()
+ms.add_mesh(pymeshlab.Mesh(*meshes.bumpy_sphere(200)))
+ms.apply_filter("meshing_edge_flip_by_willmore_optimization")
+ms.clear()
+vertices, faces = meshes.torus(150_000, None, 1)
+ms.add_mesh(pymeshlab.Mesh(vertices, faces))
+sent = []
+def interrupt():
+    time.sleep(0.6)
+    sent.append(time.perf_counter())
+    os.kill(os.getpid(), signal.SIGINT)
+threading.Thread(target=interrupt).start()
+try:
+    ms.apply_filter("meshing_edge_flip_by_willmore_optimization")
+    print("done")
+except KeyboardInterrupt:
+    late = time.perf_counter() - sent[0]
+    same = np.array_equal(ms.current_mesh().face_matrix(), faces)
+    print("interrupted", late < 1.0, same, len(ms), ms.current_mesh_id(), late)
+"""
+
+
+@pytest.mark.heavy
+@pytest.mark.skipif(os.name == "nt", reason="no signals to send")
+def test_ctrl_c_stops_a_long_run_and_changes_nothing(request):
+    root = str(request.config.rootpath)
+    run = subprocess.run(
+        [sys.executable, "-c", INTERRUPTED, root], capture_output=True, text=True, timeout=300
+    )
+    assert run.stdout.startswith("interrupted True True 1 0"), run.stdout + run.stderr
+
+
+AFTER_A_FAILURE = """
+import sys
+import pymeshlab, meshlab_willmore
+sys.path.insert(0, sys.argv[1])
+from tests import meshes
+ms = pymeshlab.MeshSet()
+ms.add_mesh(pymeshlab.Mesh(*meshes.bumpy_sphere(200)))
+for _ in range(20):
+    failing = pymeshlab.MeshSet()
+    failing.add_mesh(pymeshlab.Mesh(*meshes.fin()[:2]))
+    try:
+        failing.meshing_edge_flip_by_planar_optimization()
+    except pymeshlab.PyMeshLabException:
+        pass
+    del failing
+    rubbish = [bytearray(n) for n in range(100, 4000, 7)]
+    ms.meshing_edge_flip_by_willmore_optimization()
+print("alive")
+"""
+
+
+def test_a_native_failure_in_a_set_that_is_gone_does_no_harm(request):
+    root = str(request.config.rootpath)
+    run = subprocess.run(
+        [sys.executable, "-c", AFTER_A_FAILURE, root], capture_output=True, text=True, timeout=300
+    )
+    assert run.stdout.strip() == "alive", run.stderr

@@ -1,0 +1,87 @@
+import numpy as np
+import pymeshlab
+import pytest
+
+from meshlab_willmore.meshset.parameters import Parameter, ParameterTypeError, read_all
+from tests.meshset.conftest import FLIP
+
+NATIVE = "meshing_edge_flip_by_planar_optimization"
+
+FLAG = Parameter("flag", bool, False, "", "")
+COUNT = Parameter("count", int, 3, "", "")
+ANGLE = Parameter("angle", float, 90.0, "", "")
+KIND = Parameter("kind", str, "b", "", "", ("a", "b"))
+ALL = (FLAG, COUNT, ANGLE, KIND)
+
+
+@pytest.mark.parametrize("value", [True, 1, np.True_, np.bool_(1), 2])
+def test_bool_takes_what_native_filters_take(value):
+    assert FLAG.read(value) is True
+
+
+@pytest.mark.parametrize("value", [None, 0, np.False_])
+def test_bool_false(value):
+    assert FLAG.read(value) is False
+
+
+@pytest.mark.parametrize(("value", "kind"), [(5, int), (np.int8(5), int), (True, int)])
+def test_int(value, kind):
+    assert type(COUNT.read(value)) is kind or value is True
+    assert COUNT.read(value) == int(value)
+
+
+@pytest.mark.parametrize("value", [5, 5.0, np.float32(5), True])
+def test_float(value):
+    assert ANGLE.read(value) == float(value)
+
+
+@pytest.mark.parametrize(
+    ("parameter", "value"),
+    [(FLAG, "yes"), (FLAG, [1]), (COUNT, 2.5), (COUNT, "2"), (COUNT, None), (ANGLE, "x")]
+    + [(ANGLE, None), (ANGLE, 10**400), (KIND, 0.5), (KIND, None), (KIND, b"a")],
+)
+def test_wrong_types_are_named(parameter, value):
+    with pytest.raises(ParameterTypeError, match=f"Parameter {parameter.name}"):
+        parameter.read(value)
+    # Native filters raise RuntimeError here: whoever catches that catches this too.
+    with pytest.raises(RuntimeError):
+        parameter.read(value)
+
+
+def test_enum_by_name_and_by_index():
+    assert KIND.read("a") == KIND.read(0) == KIND.read(np.int64(0)) == 0
+
+
+def _error_of(call):
+    with pytest.raises(Exception) as caught:  # noqa: PT011 - the type is what is compared
+        call()
+    return caught.value
+
+
+@pytest.mark.parametrize(("value", "size"), [(9, 5), (-1, 5)])
+def test_enum_index_errors_are_those_of_native_filters(bumpy, value, size):
+    native = _error_of(lambda: bumpy.filter_parameter_values(NATIVE, planartype=value))
+    ours = _error_of(lambda: KIND.read(value))
+    assert type(ours) is type(native)
+    assert str(ours).replace(" 2", f" {size}") == str(native)
+
+
+def test_enum_name_errors_are_those_of_native_filters(bumpy):
+    native = _error_of(lambda: bumpy.filter_parameter_values(NATIVE, planartype="nope"))
+    ours = _error_of(lambda: bumpy.apply_filter(FLIP, energy="nope"))
+    assert type(ours) is type(native) is pymeshlab.InvalidEnumException
+    values = "'virtual willmore'; 'willmore'; "
+    assert str(native).split("values are")[0] == str(ours).split("values are")[0]
+    assert str(ours).endswith(values)
+
+
+def test_unknown_keyword_errors_are_those_of_native_filters(bumpy):
+    native = _error_of(lambda: bumpy.apply_filter(NATIVE, nope=1))
+    ours = _error_of(lambda: bumpy.apply_filter(FLIP, nope=1))
+    assert type(ours) is type(native) is pymeshlab.PyMeshLabException
+    assert str(ours) == str(native).replace(NATIVE, FLIP)
+
+
+def test_defaults_and_given_values_together():
+    values = read_all("f", ALL, {"kind": "a", "count": 7}, None)
+    assert values == {"flag": False, "count": 7, "angle": 90.0, "kind": 0}

@@ -1,0 +1,175 @@
+"""The command line, as a person and as a pipe meet it."""
+
+import errno
+import subprocess
+import sys
+from pathlib import Path
+
+import click
+import pytest
+from click.testing import CliRunner
+
+import meshlab_willmore
+from meshlab_willmore.cli import main
+
+STORY = "meshlab_willmore.demo.story.tell"
+WHOLE_RUN = """
+import sys
+from meshlab_willmore.cli import main
+from meshlab_willmore.demo import story
+story.FULL_SIZE = story.Sizes(torus_points=200, keep_one_of=60)
+main(["demo", "--output", sys.argv[1]])
+"""
+LIGHT_RUN = """
+import sys
+import meshlab_willmore
+package = set(sys.modules)
+from meshlab_willmore.cli import main
+try:
+    main(["demo", "--help"])
+except SystemExit as end:
+    assert end.code == 0
+added = {name.partition(".")[0] for name in set(sys.modules) - package}
+print(sorted(added & {"numba", "llvmlite", "pymeshlab", "matplotlib", "scipy", "numpy"}))
+"""
+
+
+def run(*arguments):
+    return CliRunner().invoke(main, arguments)
+
+
+def fail_with(monkeypatch, error):
+    def fail(*_arguments, **_named):
+        raise error
+
+    monkeypatch.setattr(STORY, fail)
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["-h"], ["demo", "--help"], ["demo", "-h"]])
+def test_help_shows_examples(arguments):
+    result = run(*arguments)
+    assert result.exit_code == 0
+    # Click would run the lines of a paragraph together.
+    assert (
+        "\n    meshlab-willmore demo\n    meshlab-willmore demo --output pictures" in result.stdout
+    )
+    assert result.stdout.isascii()
+
+
+def test_help_names_the_exit_codes():
+    assert "Exit codes: 0 done, 1 failed while running, 2 wrong use." in run("--help").stdout
+
+
+def test_version():
+    result = run("--version")
+    assert result.exit_code == 0
+    assert result.stdout == f"meshlab-willmore, version {meshlab_willmore.__version__}\n"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "reason"),
+    [
+        (["dmeo"], "No such command 'dmeo'"),
+        (["demo", "--outptu", "x"], "No such option"),
+        (["demo", "--output"], "requires an argument"),
+        (["demo", "surplus"], "unexpected extra argument"),
+    ],
+)
+def test_wrong_use_is_exit_code_2(arguments, reason):
+    result = run(*arguments)
+    assert result.exit_code == 2
+    assert reason in result.stderr
+    assert result.stdout == ""
+
+
+def test_a_file_in_the_folders_place_is_one_line(tmp_path):
+    path = tmp_path / "taken"
+    path.write_text("mine")
+    result = run("demo", "--output", str(path))
+    assert result.exit_code == 1
+    assert result.stderr == f"Error: cannot write into {path}: it is a file\n"
+    assert result.stdout == ""
+    assert path.read_text() == "mine"
+
+
+@pytest.mark.parametrize(
+    ("error", "line"),
+    [
+        (ValueError("first\n  second"), "Error: first second\n"),
+        (RuntimeError(), "Error: RuntimeError\n"),
+        (OSError(28, "No space left on device"), "Error: [Errno 28] No space left on device\n"),
+    ],
+)
+def test_errors_are_one_line_and_exit_code_1(monkeypatch, error, line):
+    fail_with(monkeypatch, error)
+    result = run("demo")
+    assert (result.exit_code, result.stderr, result.stdout) == (1, line, "")
+
+
+@pytest.mark.parametrize("arguments", [["--debug", "demo"], ["demo", "--debug"]])
+def test_debug_lets_the_error_through(monkeypatch, arguments):
+    error = ValueError("why")
+    fail_with(monkeypatch, error)
+    assert run(*arguments).exception is error
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt(), click.Abort()])
+def test_ctrl_c_ends_without_a_traceback(monkeypatch, error):
+    fail_with(monkeypatch, error)
+    result = run("demo")
+    assert result.exit_code == 1
+    assert result.stderr.strip() == "Aborted!"
+
+
+def test_a_reader_that_leaves_is_no_error_to_talk_about(monkeypatch):
+    fail_with(monkeypatch, BrokenPipeError(errno.EPIPE, "Broken pipe"))
+    result = run("demo")
+    assert (result.exit_code, result.stderr) == (1, "")
+
+
+def test_help_imports_nothing_heavy():
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", LIGHT_RUN], capture_output=True, text=True, check=True
+    )
+    assert done.stdout.splitlines()[-1] == "[]"
+    assert done.stderr == ""
+
+
+@pytest.mark.heavy
+def test_whole_demo_in_a_process_of_its_own(tmp_path):
+    pytest.importorskip("matplotlib")
+    folder = tmp_path / "pictures"
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", WHOLE_RUN, str(folder)],
+        capture_output=True,
+        encoding="ascii",
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    table, written = done.stdout.split(f"Written to {folder}:\n")
+    header = table.splitlines()[0].split()
+    assert header == ["faces", "flips", "W", "area", "M", "shape", "seconds"]
+    assert "  Willmore flips" in table
+    assert " 45.7570 " in table
+    assert " 29.9173 " in table
+    assert "\x1b" not in done.stdout
+    files = [folder / name for name in written.split()]
+    assert sorted(files) == sorted(folder.iterdir())
+    assert {path.suffix for path in files} == {".ply", ".png"}
+    assert all(path.stat().st_size > 0 for path in files)
+    # Progress has a line for each stage, and nothing else is said: no warning of any library.
+    assert {line.partition(":")[0] for line in done.stderr.splitlines()} == {
+        "compiling (the first run only)", "cube", "torus", "scan", "face", "picture",
+    }  # fmt: skip
+
+
+def test_output_is_a_folder_here_by_default(monkeypatch, tmp_path):
+    from meshlab_willmore.demo.story import Story
+
+    folders = []
+    monkeypatch.setattr(STORY, lambda folder, say: folders.append(folder) or Story([], []))
+    monkeypatch.chdir(tmp_path)
+    result = run("demo")
+    assert result.exit_code == 0
+    assert folders == [Path("willmore-demo")]
+    assert f"Written to {tmp_path / 'willmore-demo'}:" in result.stdout

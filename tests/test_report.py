@@ -1,0 +1,240 @@
+"""The table, the pictures, and files that are written whole."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from meshlab_willmore.report.camera import View, Window, view_from, window_of
+from meshlab_willmore.report.files import writable_folder, written_whole
+from meshlab_willmore.report.table import LEGEND, Stage, format_table, significant
+
+FROM_ABOVE = view_from((0.0, 0.0, 1.0), up=(0.0, 1.0, 0.0))
+
+
+# The table
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (45.757012, "45.7570"),
+        (0.0, "0.00000"),
+        (-3.25, "-3.25000"),
+        (166259.4, "166259"),
+        (12345678.9, "12345679"),
+        (1e-9, "0.00000"),
+        (99999.96, "100000.0"),
+    ],
+)
+def test_numbers_have_six_digits_and_never_an_exponent(value, text):
+    assert significant(value) == text
+
+
+def test_table_is_laid_out_exactly():
+    stages = [
+        Stage("cube", "initial", 24, None, 45.757, 6.22709, 47.93, 0.0821, None),
+        Stage("cube", "Willmore flips", 24, 6, 29.9173, 6.02993, 23.6376, 0.868, 0.004),
+        Stage("scan", "cleaned", 166119, None, 63932.3, 19859.1, 10224.1, 0.425, 0.17),
+    ]
+    assert format_table(stages) == "\n".join(
+        [
+            "                   faces  flips        W     area        M  shape  seconds",
+            "--------------------------------------------------------------------------",
+            "cube",
+            "  initial             24         45.7570  6.22709  47.9300  0.082",
+            "  Willmore flips      24      6  29.9173  6.02993  23.6376  0.868     0.00",
+            "scan",
+            "  cleaned         166119         63932.3  19859.1  10224.1  0.425     0.17",
+            "--------------------------------------------------------------------------",
+            LEGEND,
+        ]
+    )
+
+
+# Files
+
+
+def test_a_file_appears_whole_and_with_its_ending(tmp_path):
+    path = tmp_path / "mesh.ply"
+    with written_whole(path) as beside:
+        assert beside.parent == tmp_path
+        assert beside.suffix == ".ply"
+        beside.write_text("new")
+        assert not path.exists()
+    assert path.read_text() == "new"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_after_an_error_the_older_file_is_as_it_was(tmp_path):
+    path = tmp_path / "mesh.ply"
+    path.write_text("old")
+
+    def write_half(beside):
+        beside.write_text("ne")
+        raise RuntimeError("half way")
+
+    with pytest.raises(RuntimeError, match="half way"), written_whole(path) as beside:
+        write_half(beside)
+    assert path.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_folder_is_made_and_left_empty(tmp_path):
+    folder = tmp_path / "a" / "b"
+    for _ in range(2):
+        assert writable_folder(folder) == folder
+        assert list(folder.iterdir()) == []
+
+
+def test_a_file_in_the_folders_place_is_named(tmp_path):
+    path = tmp_path / "taken"
+    path.write_text("mine")
+    with pytest.raises(OSError, match=r"cannot write into .*taken: it is a file"):
+        writable_folder(path)
+    with pytest.raises(OSError, match=r"cannot write into .*below: Not a directory"):
+        writable_folder(path / "below")
+    assert path.read_text() == "mine"
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root may write")
+def test_a_folder_without_write_permission_is_named(tmp_path):
+    tmp_path.chmod(0o500)
+    with pytest.raises(OSError, match=r"cannot write into .*: Permission denied"):
+        writable_folder(tmp_path)
+
+
+@pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="needs a file system that is read-only")
+def test_a_read_only_file_system_is_named():
+    with pytest.raises(OSError, match=r"cannot write into /proc/self: "):
+        writable_folder(Path("/proc/self"))
+
+
+# The camera
+
+
+def test_camera_is_a_rotation_with_up_upwards():
+    view = view_from((1.0, -2.0, 0.5), up=(0.0, 0.0, 1.0))
+    np.testing.assert_allclose(view.rotation @ view.rotation.T, np.eye(3), atol=1e-15)
+    assert np.linalg.det(view.rotation) == pytest.approx(1)
+    right, up, towards = view.rotation
+    assert right[2] == 0
+    assert up[2] > 0
+    np.testing.assert_allclose(np.cross(towards, (1.0, -2.0, 0.5)), 0, atol=1e-15)
+
+
+def test_window_shows_all_vertices_unless_it_is_given():
+    vertices = np.array([(0, 0, 5), (4, 0, -1), (0, 2, 0)], dtype=float)
+    window = window_of(vertices, FROM_ABOVE)
+    assert window == pytest.approx((-0.08, 4.08, -0.08, 2.08))
+    part = Window(1.0, 2.0, 0.0, 1.0)
+    assert window_of(vertices, View(FROM_ABOVE.rotation, part)) is part
+
+
+# Pictures
+
+
+@pytest.fixture(scope="module")
+def pictures():
+    pytest.importorskip("matplotlib")
+    from meshlab_willmore.report import pictures
+
+    return pictures
+
+
+def pixels(figure):
+    """The page as colours (height, width, 3) from 0 to 255, and the four panels cut out of it."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    page = np.asarray(canvas.buffer_rgba())[:, :, :3].astype(int)
+    panels = []
+    for axes in figure.axes:
+        box = axes.get_window_extent()
+        bottom, top = len(page) - round(box.y0), len(page) - round(box.y1)
+        panels.append(page[top:bottom, round(box.x0) : round(box.x1)])
+    return page, panels
+
+
+def roof():
+    """A square of side 2 with its middle raised: 4 faces, as seen from above."""
+    vertices = np.array([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0), (0, 0, 0.5)], dtype=float)
+    return vertices, np.array([(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)])
+
+
+def test_four_panels_share_one_camera(pictures):
+    vertices, faces = roof()
+    window = Window(-0.5, 1.5, -1.0, 0.5)
+    view = View(FROM_ABOVE.rotation, window)
+    shots = pictures.Shot("before", vertices, faces), pictures.Shot("after", vertices, faces[::-1])
+    figure = pictures.comparison(*shots, view)
+    assert [(*axes.get_xlim(), *axes.get_ylim()) for axes in figure.axes] == [window] * 4
+    assert [text.get_text() for text in figure.texts] == ["before", "after"]
+    _, panels = pixels(figure)
+    assert len({panel.shape for panel in panels}) == 1
+    height, width, _ = panels[0].shape
+    assert width / height == pytest.approx(2.0 / 1.5, rel=0.01)
+    # The same faces in another order are the same surface.
+    np.testing.assert_allclose(panels[0], panels[2], atol=64)
+    assert np.abs(panels[0] - panels[2]).mean() < 1
+    assert np.abs(panels[1] - panels[3]).mean() < 1
+
+
+def test_panels_show_a_wireframe_and_shades(pictures):
+    shot = pictures.Shot("", *roof())
+    _, (wire, shaded, *_) = pixels(pictures.comparison(shot, shot, FROM_ABOVE))
+    # Wireframe: mostly paper, some dark line; the diagonals cross in the middle.
+    assert (wire.min(axis=2) > 250).mean() > 0.9
+    height, width, _ = wire.shape
+    middle = wire[height // 2 - 3 : height // 2 + 3, width // 2 - 3 : width // 2 + 3]
+    assert middle.min() < 60
+    # Shaded: four flat facets; the one that looks to the left and up is the lightest.
+    left, right = shaded[height // 2, width // 4], shaded[height // 2, 3 * width // 4]
+    top, bottom = shaded[height // 4, width // 2], shaded[3 * height // 4, width // 2]
+    assert min(left.sum(), top.sum()) > max(right.sum(), bottom.sum()) + 30
+    assert shaded[height // 2, width // 8].tolist() == left.tolist()
+
+
+def test_what_is_in_front_hides_what_is_behind(pictures):
+    near = np.array([(-1, -1, 2), (1, -1, 2), (0, 1, 2)], dtype=float)
+    far = np.array([(-2, -2, 0), (2, -2, 1), (0, 2, 1)], dtype=float)
+    vertices = np.concatenate([near, far])
+    for faces in ([(0, 1, 2), (3, 4, 5)], [(3, 4, 5), (0, 1, 2)]):
+        both = pictures.Shot("", vertices, np.array(faces))
+        alone = pictures.Shot("", vertices, np.array([(0, 1, 2)]))
+        _, (_, shaded, _, expected) = pixels(pictures.comparison(both, alone, FROM_ABOVE))
+        height, width, _ = shaded.shape
+        middle = height // 2, width // 2
+        assert shaded[middle].tolist() == expected[middle].tolist()
+        corner = height - height // 16, width // 8
+        assert shaded[corner].tolist() != expected[corner].tolist() == [255, 255, 255]
+
+
+def test_faces_that_look_away_or_lie_outside_are_not_drawn(pictures):
+    vertices, faces = roof()
+    away = pictures.facets_seen(
+        pictures.Shot("", vertices, faces[:, ::-1]), FROM_ABOVE, window_of(vertices, FROM_ABOVE)
+    )
+    assert away.corners.shape == (0, 3, 2)
+    beside = Window(1.5, 2.5, -1.0, 1.0)
+    outside = pictures.facets_seen(pictures.Shot("", vertices, faces), FROM_ABOVE, beside)
+    assert len(outside.corners) == 0
+    right_part = Window(0.5, 2.5, -0.1, 0.1)
+    seen = pictures.facets_seen(pictures.Shot("", vertices, faces), FROM_ABOVE, right_part)
+    assert 1 <= len(seen.corners) < 4
+    figure = pictures.comparison(
+        pictures.Shot("", vertices, faces), pictures.Shot("", vertices, faces[:0]), FROM_ABOVE
+    )
+    _, (_, _, empty_wire, empty_shaded) = pixels(figure)
+    assert empty_wire.min() == empty_shaded.min() == 255
+
+
+def test_a_facet_without_area_does_not_disturb(pictures):
+    vertices, faces = roof()
+    flat = np.vstack([faces, [(0, 1, 1)]])
+    shots = pictures.Shot("", vertices, faces), pictures.Shot("", vertices, flat)
+    _, panels = pixels(pictures.comparison(*shots, FROM_ABOVE))
+    np.testing.assert_array_equal(panels[0], panels[2])
+    np.testing.assert_array_equal(panels[1], panels[3])

@@ -6,12 +6,13 @@ Importing this package adds its filters to `pymeshlab.MeshSet`.
 from __future__ import annotations
 
 import importlib
+import re
 from typing import TYPE_CHECKING, Any
 
 try:
-    from .meshset.register import is_registered, register, unregister
+    import pymeshlab  # noqa: F401
 except ImportError as error:
-    if getattr(error, "name", None) == "pymeshlab" or "lib" not in str(error):
+    if not re.search(r"lib\S+\.so\S*: cannot open shared object", str(error)):
         raise
     raise ImportError(
         f"PyMeshLab could not be loaded: {error}. On Debian and Ubuntu its system libraries come "
@@ -19,6 +20,7 @@ except ImportError as error:
     ) from error
 
 from ._version import __version__
+from .meshset.register import is_registered, register, unregister
 
 if TYPE_CHECKING:
     from .measure import (

@@ -6,18 +6,13 @@ import time
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-import numpy as np
 import pymeshlab
 
-from . import exchange, interrupts, layers, sides
+from . import exchange, interrupts, scalars, sides
 from .parameters import Parameter
 from .snapshot import take
 
 NO_LIMIT = -1
-
-# muParser, which evaluates MeshLab's functions, takes 20000 characters; a value with its test
-# and brackets takes at most 40.
-_VALUES_PER_FUNCTION = 400
 
 
 class Filter(NamedTuple):
@@ -164,7 +159,8 @@ def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any]
             maxflips=None if maxflips == NO_LIMIT else maxflips,
         )
     if result.flips:
-        exchange.give(ms, snapshot, result.faces, result.corners)
+        records = exchange.with_faces(snapshot.ply, result.faces, result.corners)
+        exchange.give(ms, snapshot, records)
     seconds = time.perf_counter() - start
     returned = {
         "flips": result.flips,
@@ -228,57 +224,8 @@ def _write_scalar(ms: pymeshlab.MeshSet, _: dict[str, Any]) -> tuple[dict[str, A
     mesh = _current_surface(ms)
     with interrupts.kept():
         energy = vertex_willmore_energy(mesh.vertex_matrix(), mesh.face_matrix())
-    with layers.quiet(ms), layers.unrecorded(ms):
-        _transfer_scalar(ms, energy)
-        _correct_scalar(ms, energy)
+    scalars.write_vertex_scalar(ms, energy)
     return {}, f"Range: {energy.min():g} {energy.max():g}"
-
-
-def _transfer_scalar(ms: pymeshlab.MeshSet, scalar: np.ndarray) -> None:
-    """Give each vertex the value of the nearest point of a helper layer: of itself.
-
-    The transfer moves both layers by their transforms and back, which costs last digits: it runs
-    without one.
-    """
-    target = ms.current_mesh_id()
-    transform = ms.current_mesh().transform_matrix()
-    vertices = ms.current_mesh().vertex_matrix()
-    ms.set_matrix_identity()
-    ms.add_mesh(pymeshlab.Mesh(vertices, v_scalar_array=scalar), "Willmore energy")
-    helper = ms.current_mesh_id()
-    try:
-        ms.transfer_attributes_per_vertex(
-            sourcemesh=helper,
-            targetmesh=target,
-            vertexsampling=True,
-            colortransfer=False,
-            qualitytransfer=True,
-            upperbound=pymeshlab.PercentageValue(1),
-            onselected=False,
-        )
-    finally:
-        ms.set_current_mesh(helper)
-        ms.delete_current_mesh()
-        ms.set_current_mesh(target)
-        ms.set_matrix(transformmatrix=transform, compose=False, freeze=False)
-
-
-def _correct_scalar(ms: pymeshlab.MeshSet, scalar: np.ndarray) -> None:
-    """Set one by one what the transfer mixed up: vertices in the same place."""
-    wrong = np.flatnonzero(ms.current_mesh().vertex_scalar_array() != scalar)
-    for start in range(0, len(wrong), _VALUES_PER_FUNCTION):
-        part = wrong[start : start + _VALUES_PER_FUNCTION]
-        ms.compute_scalar_by_function_per_vertex(q=_function_of_index(part, scalar[part]))
-
-
-def _function_of_index(indices: np.ndarray, values: np.ndarray) -> str:
-    """A function of MeshLab's that is values[p] at vertex indices[p], elsewhere the scalar."""
-    if len(indices) == 1:
-        return f"(vi=={indices[0]}?{float(values[0])!r}:q)"
-    middle = len(indices) // 2
-    lower = _function_of_index(indices[:middle], values[:middle])
-    upper = _function_of_index(indices[middle:], values[middle:])
-    return f"(vi<{indices[middle]}?{lower}:{upper})"
 
 
 # --- the list ----------------------------------------------------------------------------------
@@ -292,7 +239,7 @@ FILTERS = (
         "Edges are flipped as long as that lowers a discrete Willmore energy (Bobenko), measured "
         "with virtual points in the middle of the edges, as in 'Mesh optimisation based on "
         "Willmore energy'. Vertices never move. Boundary and non-manifold edges, texture seams "
-        "and the inner edges of polygons stay.",
+        "stay, and so do polygons; meshing_poly_to_tri makes triangles of them.",
         _FLIP_PARAMETERS,
         _FLIP_RETURNS,
         _flip,
@@ -303,7 +250,8 @@ FILTERS = (
         "Write the discrete Willmore energy of each vertex into the vertex scalar.",
         "It is the sum of the angles between the circumcircles of neighbouring faces over the "
         "edges of the vertex, minus 2 pi, in radians: 0 where the vertex is convex and lies with "
-        "its neighbours on a sphere or plane. Boundary vertices get 0.",
+        "its neighbours on a sphere or plane. Boundary vertices get 0. The next layer of the set "
+        "gets an id that is one higher than it would be otherwise.",
         (),
         (),
         _write_scalar,

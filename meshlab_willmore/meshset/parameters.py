@@ -75,7 +75,10 @@ def _read_bool(_: Parameter, value: Any) -> bool:
 
 
 def _read_int(_: Parameter, value: Any) -> int:
-    return operator.index(value)
+    index = operator.index(value)
+    if not -(2**31) <= index < 2**31:
+        raise OverflowError
+    return index
 
 
 def _read_float(_: Parameter, value: Any) -> float:

@@ -1,28 +1,37 @@
 """Puts the filters on `pymeshlab.MeshSet`, beside MeshLab's own.
 
 PyMeshLab's methods all end in ``MeshSet.apply_filter``, and its lists come from four functions:
-replacing these makes our filters known wherever the native ones are.
+replacing these makes our filters known wherever the native ones are. What counts the layers of a
+set, or goes through them, is replaced so that it leaves out parked layers (see `layers`).
 """
 
 from __future__ import annotations
 
 import functools
-import inspect
 import sys
-from collections.abc import Callable
+import threading
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import pymeshlab
 from pymeshlab import MeshSet
 
-from . import layers
+from . import layers, native
 from .filters import BY_NAME, FILTERS, Filter
-from .parameters import Parameter, read_all
+from .methods import method_of
+from .parameters import read_all
 
 _MISSING = object()
 
 # (owner, attribute, value before), in the order of replacement; empty: not registered.
 _replaced: list[tuple[Any, str, Any]] = []
+
+# PyMeshLab redirects the streams of the whole process: filters take turns.
+_turn = threading.RLock()
+
+# On the wrapper of apply_filter: how to undo a registration, also one of a module that was
+# imported before and dropped from sys.modules since.
+_UNDO = "_meshlab_willmore_unregister"
 
 
 def register() -> None:
@@ -37,6 +46,7 @@ def register() -> None:
     """
     if _replaced:
         return
+    getattr(MeshSet.apply_filter, _UNDO, lambda: None)()
     taken = sorted(name for name in BY_NAME if hasattr(MeshSet, name))
     taken += sorted(set(BY_NAME) & set(pymeshlab.filter_list()) - set(taken))
     if taken:
@@ -44,14 +54,12 @@ def register() -> None:
             f"PyMeshLab already has {', '.join(taken)}; meshlab_willmore does not replace native "
             "filters. Use a version of meshlab_willmore that fits this PyMeshLab."
         )
-    for name in ("apply_filter", "filter_parameter_values"):
-        _wrap(MeshSet, name, _WRAPPERS[name])
-    for name in ("__init__", "set_verbosity", "set_parameter_verbosity"):
-        _wrap(MeshSet, name, _NOTERS[name])
-    for name in ("filter_list", "print_filter_list", "print_filter_parameter_list", "search"):
-        _wrap(pymeshlab, name, _WRAPPERS[name])
+    for owner, wrappers in ((MeshSet, _METHODS), (pymeshlab, _FUNCTIONS)):
+        for name, make in wrappers.items():
+            _wrap(owner, name, make)
+    setattr(MeshSet.apply_filter, _UNDO, unregister)
     for filter_ in FILTERS:
-        _replace(MeshSet, filter_.name, _method(filter_))
+        _replace(MeshSet, filter_.name, method_of(filter_))
 
 
 def unregister() -> None:
@@ -74,10 +82,9 @@ def _replace(owner: Any, name: str, value: Any) -> None:
     setattr(owner, name, value)
 
 
-def _wrap(owner: Any, name: str, make: Callable[[Any], Any]) -> None:
-    native = getattr(owner, name)
-    wrapped = make(native)
-    _replace(owner, name, functools.wraps(native, updated=())(wrapped))
+def _wrap(owner: Any, name: str, make: Callable[[Callable], Callable]) -> None:
+    before = getattr(owner, name)
+    _replace(owner, name, functools.wraps(before, updated=())(make(before)))
 
 
 # --- applying ----------------------------------------------------------------------------------
@@ -85,7 +92,7 @@ def _wrap(owner: Any, name: str, make: Callable[[Any], Any]) -> None:
 
 def _apply(ms: MeshSet, filter_: Filter, given: dict[str, Any]) -> dict[str, Any]:
     values = _values(ms, filter_, given)
-    verbosity = layers.verbosity(ms)
+    verbosity = native.verbosity(ms)
     if verbosity.all or verbosity.parameters:
         print(f"\nApplying filter {filter_.name} with the following parameters:\n{values}\n")
     try:
@@ -117,61 +124,89 @@ def _ours(args: tuple[Any, ...], key: str, given: dict[str, Any]) -> Filter | No
     return None
 
 
-def _wrap_apply_filter(native: Callable) -> Callable:
+def _wrap_apply_filter(wrapped: Callable) -> Callable:
     def apply_filter(self: MeshSet, *args: Any, **kwargs: Any) -> dict[str, Any]:
         layers.sweep(self)
         filter_ = _ours(args, "filter_name", kwargs)
         if filter_ is None:
-            return native(self, *args, **kwargs)
-        return _apply(self, filter_, kwargs)
+            name = args[0] if args else kwargs.get("filter_name")
+            with layers.parked_aside(self, name):
+                return wrapped(self, *args, **kwargs)
+        with _turn:
+            return _apply(self, filter_, kwargs)
 
     return apply_filter
 
 
-def _wrap_filter_parameter_values(native: Callable) -> Callable:
+def _wrap_filter_parameter_values(wrapped: Callable) -> Callable:
     def filter_parameter_values(self: MeshSet, *args: Any, **kwargs: Any) -> dict[str, Any]:
         filter_ = _ours(args, "arg0", kwargs)
         if filter_ is None:
-            return native(self, *args, **kwargs)
+            return wrapped(self, *args, **kwargs)
         return _values(self, filter_, kwargs)
 
     return filter_parameter_values
 
 
-def _note_init(native: Callable) -> Callable:
+def _wrap_init(wrapped: Callable) -> Callable:
     def init(self: MeshSet, *args: Any, **kwargs: Any) -> None:
-        native(self, *args, **kwargs)
+        wrapped(self, *args, **kwargs)
         verbose = args[0] if args else kwargs.get("verbose", False)
         if verbose:
-            layers.note_verbosity(self, all=True)
+            native.note_verbosity(self, all=True)
 
     return init
 
 
-def _note_verbosity(field: str) -> Callable[[Callable], Callable]:
-    def make(native: Callable) -> Callable:
+def _wrap_set_verbosity(field: str) -> Callable[[Callable], Callable]:
+    def make(wrapped: Callable) -> Callable:
         def set_verbosity(self: MeshSet, verbosity: bool) -> None:
-            native(self, verbosity)
-            layers.note_verbosity(self, **{field: bool(verbosity)})
+            wrapped(self, verbosity)
+            native.note_verbosity(self, **{field: bool(verbosity)})
 
         return set_verbosity
 
     return make
 
 
-_NOTERS = {
-    "__init__": _note_init,
-    "set_verbosity": _note_verbosity("all"),
-    "set_parameter_verbosity": _note_verbosity("parameters"),
-}
+# --- layers ------------------------------------------------------------------------------------
+
+
+def _wrap_iter(_: Callable) -> Callable:
+    """Go through the layers that are there when the loop begins, and still there at their turn.
+
+    PyMeshLab's own iterator points to freed memory once its layer is deleted, and a loop in which
+    each step replaces a layer would never end.
+    """
+
+    def iterate(self: MeshSet) -> Iterator[pymeshlab.Mesh]:
+        there = layers.visible_ids(self)
+        return (self.mesh(i) for i in there if self.mesh_id_exists(i))
+
+    return iterate
+
+
+def _wrap_count(wrapped: Callable) -> Callable:
+    def count(self: MeshSet) -> int:
+        return len(layers.visible_ids(self)) if layers.parked(self) else wrapped(self)
+
+    return count
+
+
+def _wrap_clear(wrapped: Callable) -> Callable:
+    def clear(self: MeshSet) -> None:
+        wrapped(self)
+        layers.forget_parked(self)
+
+    return clear
 
 
 # --- lists -------------------------------------------------------------------------------------
 
 
-def _wrap_filter_list(native: Callable) -> Callable:
+def _wrap_filter_list(wrapped: Callable) -> Callable:
     def filter_list() -> list[str]:
-        return sorted([*native(), *BY_NAME])
+        return sorted([*wrapped(), *BY_NAME])
 
     return filter_list
 
@@ -185,11 +220,11 @@ def _wrap_print_filter_list(_: Callable) -> Callable:
     return print_filter_list
 
 
-def _wrap_print_filter_parameter_list(native: Callable) -> Callable:
+def _wrap_print_filter_parameter_list(wrapped: Callable) -> Callable:
     def print_filter_parameter_list(filter_name: str) -> None:
         filter_ = BY_NAME.get(filter_name)
         if filter_ is None:
-            native(filter_name)
+            wrapped(filter_name)
             return
         print(f"{filter_name} filter - list of parameter names:")
         for parameter in filter_.parameters:
@@ -201,7 +236,7 @@ def _wrap_print_filter_parameter_list(native: Callable) -> Callable:
     return print_filter_parameter_list
 
 
-def _wrap_search(native: Callable) -> Callable:
+def _wrap_search(wrapped: Callable) -> Callable:
     def search(search_key_word: str) -> None:
         words = search_key_word.lower().split()
         for filter_ in FILTERS:
@@ -209,64 +244,25 @@ def _wrap_search(native: Callable) -> Callable:
             if words and all(word in text for word in words):
                 print(f"{filter_.name} : {filter_.summary}")
         sys.stdout.flush()
-        native(search_key_word)
+        wrapped(search_key_word)
 
     return search
 
 
-_WRAPPERS = {
+_METHODS: dict[str, Callable[[Callable], Callable]] = {
+    "__init__": _wrap_init,
+    "__iter__": _wrap_iter,
+    "__len__": _wrap_count,
     "apply_filter": _wrap_apply_filter,
+    "clear": _wrap_clear,
     "filter_parameter_values": _wrap_filter_parameter_values,
+    "mesh_number": _wrap_count,
+    "set_parameter_verbosity": _wrap_set_verbosity("parameters"),
+    "set_verbosity": _wrap_set_verbosity("all"),
+}
+_FUNCTIONS: dict[str, Callable[[Callable], Callable]] = {
     "filter_list": _wrap_filter_list,
     "print_filter_list": _wrap_print_filter_list,
     "print_filter_parameter_list": _wrap_print_filter_parameter_list,
     "search": _wrap_search,
 }
-
-
-# --- methods -----------------------------------------------------------------------------------
-
-
-def _method(filter_: Filter) -> Callable:
-    """A method of `MeshSet` as PyMeshLab makes them, but with a signature and a docstring."""
-
-    def filter_function(self: MeshSet, **kwargs: Any) -> dict[str, Any] | None:
-        return self.apply_filter(filter_.name, **kwargs) or None
-
-    filter_function.__name__ = filter_.name
-    filter_function.__qualname__ = f"MeshSet.{filter_.name}"
-    filter_function.__module__ = "meshlab_willmore"
-    filter_function.__doc__ = _docstring(filter_)
-    filter_function.__signature__ = _signature(filter_)  # type: ignore[attr-defined]
-    return filter_function
-
-
-def _signature(filter_: Filter) -> inspect.Signature:
-    parameters = [inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)]
-    for p in filter_.parameters:
-        default = inspect.Parameter.empty if callable(p.default) else p.default
-        parameters.append(
-            inspect.Parameter(p.name, inspect.Parameter.KEYWORD_ONLY, default=default)
-        )
-    return inspect.Signature(parameters)
-
-
-def _docstring(filter_: Filter) -> str:
-    lines = [filter_.summary, "", f"MeshLab name: {filter_.meshlab_name!r}.", "", filter_.info]
-    if filter_.parameters:
-        lines += ["", "Parameters", "----------"]
-    for parameter in filter_.parameters:
-        lines += [f"{parameter.name} : {_type(parameter)}", f"    {parameter.tooltip}"]
-    if filter_.returns:
-        lines += ["", "Returns", "-------", "dict"]
-        lines += [f"    ``{name}`` ({kind}): {text}" for name, kind, text in filter_.returns]
-    return "\n".join(lines)
-
-
-def _type(parameter: Parameter) -> str:
-    if parameter.choices:
-        names = ", ".join(map(repr, parameter.choices))
-        return f"{{{names}}} or index, default {parameter.shown_default()}"
-    if callable(parameter.default):
-        return f"{parameter.type.__name__}, optional"
-    return f"{parameter.type.__name__}, default {parameter.shown_default()}"

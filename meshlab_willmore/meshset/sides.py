@@ -17,7 +17,7 @@ _SIDE_BITS = (_BORDER_BIT, _FAUX_BIT)
 
 
 def fixed_edges(snapshot: Snapshot) -> np.ndarray:
-    """Edges that no flip may take: sides of polygons' triangles (faux) and texture seams.
+    """Edges that no flip may take: those of polygons, inner and outer ones, and texture seams.
 
     Returns
     -------
@@ -27,7 +27,8 @@ def fixed_edges(snapshot: Snapshot) -> np.ndarray:
     """
     tails = snapshot.faces
     heads = np.roll(tails, -1, axis=1)
-    fixed = _side_bits(snapshot.ply.faces["flags"], _FAUX_BIT)
+    faux = _side_bits(snapshot.ply.faces["flags"], _FAUX_BIT)
+    fixed = faux | faux.any(axis=1, keepdims=True)
     if "texcoord" in (snapshot.ply.faces.dtype.names or ()):
         fixed |= _seams(snapshot)
     return np.column_stack((tails[fixed], heads[fixed])).astype(np.int32)

@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 import pymeshlab
 
-from . import layers, ply
+from . import layers, native, ply
 
 MESH_FILE = "mesh.ply"
 
@@ -85,17 +85,19 @@ def take(ms: pymeshlab.MeshSet) -> Snapshot:
 
     The current mesh must have faces and be compact, as it is after every filter.
     """
-    layers.forget_failures()
+    native.forget_failures()
     mesh = ms.current_mesh()
     attribute_keys = [k for k in ms.filter_parameter_values("ply") if k.startswith("__ca_")]
     with _copied(mesh) as (copy, folder):
         path = folder / MESH_FILE
         copy.save_current_mesh(str(path), save_textures=False, **_save_flags(mesh))
         records = ply.read(path)
-        attributes = _take_attributes(mesh, copy, folder, attribute_keys)
+        attributes = _take_attributes(mesh, _attribute_names(copy, folder, attribute_keys))
     records = records._replace(edges=mesh.edge_matrix().astype(np.int32))
     images = mesh.textures()
-    unsupported = _unsupported(mesh, records, images)
+    unsupported = [*_curvatures(mesh), *_lost_names(records.textures, images)]
+    if len(attributes) < len(attribute_keys):
+        unsupported.append("custom attributes with odd names")
     return Snapshot(records, attributes, images, layers.identity(mesh), unsupported)
 
 
@@ -123,13 +125,9 @@ def _save_flags(mesh: pymeshlab.Mesh) -> dict[str, bool]:
     }
 
 
-def _take_attributes(
-    mesh: pymeshlab.Mesh, copy: pymeshlab.MeshSet, folder: Path, keys: list[str]
-) -> list[Attribute]:
-    if not keys:
-        return []
+def _take_attributes(mesh: pymeshlab.Mesh, names: list[tuple[str, str]]) -> list[Attribute]:
     attributes = []
-    for kind, name in _attribute_names(copy, folder, keys):
+    for kind, name in names:
         reader, _ = ATTRIBUTE_METHODS[kind]
         attributes.append(Attribute(kind, name, getattr(mesh, reader)(name)))
     return attributes
@@ -143,8 +141,10 @@ def _attribute_names(
     The header of a PLY has the real ones; all elements go first, for PyMeshLab crashes when it
     writes the values of copied attributes. `copy` is empty afterwards.
     """
-    copy.set_selection_all()
-    copy.meshing_remove_selected_vertices()
+    if not keys:
+        return []
+    native.apply(copy, "set_selection_all")
+    native.apply(copy, "meshing_remove_selected_vertices")
     path = folder / "attributes.ply"
     copy.save_current_mesh(str(path), save_textures=False, **dict.fromkeys(keys, True))
     header = path.read_bytes().decode("utf-8", "surrogateescape")
@@ -169,30 +169,30 @@ def _python_name(name: str) -> str:
     return re.sub(r"[().,'\":+]+", "", re.sub(r"[ /-]", "_", name.lower()))
 
 
-def _unsupported(
-    mesh: pymeshlab.Mesh, records: ply.PlyMesh, images: dict[str, pymeshlab.Image]
-) -> list[str]:
-    found = []
+def _curvatures(mesh: pymeshlab.Mesh) -> Iterator[str]:
     for element in ("vertex", "face"):
-        with layers.muted(), suppress(pymeshlab.MissingComponentException):
+        with native.muted(), suppress(pymeshlab.MissingComponentException):
             getattr(mesh, f"{element}_curvature_principal_dir1_matrix")()
-            found.append(f"the principal curvature directions per {element}")
-    missing = [name for name in records.textures if name not in images]
+            yield f"the principal curvature directions per {element}"
+
+
+def _lost_names(textures: tuple[str, ...], images: dict[str, pymeshlab.Image]) -> Iterator[str]:
+    missing = [name for name in textures if name not in images]
     if missing:
-        found.append(f"the names of textures without an image ({', '.join(missing)})")
-    spaced = [name for name in records.textures if _is_spaced(name)]
-    if spaced and not is_set_by_filter(records.textures):
-        found.append(f"several textures with white space in a name ({', '.join(spaced)})")
-    return found
+        yield f"the names of textures without an image ({', '.join(missing)})"
+    odd = [name for name in textures if name != plain_name(name)]
+    if odd and not is_set_by_filter(textures):
+        yield f"the names of textures with other than plain characters ({', '.join(odd)})"
 
 
-def _is_spaced(name: str) -> bool:
-    return len(name.split()) != 1
+def plain_name(name: str) -> str:
+    """`name` in the characters that PyMeshLab's PLY reader knows, others in percent encoding."""
+    return re.sub("[^!-|]|%", lambda odd: "".join(f"%{b:02X}" for b in odd[0].encode()), name)
 
 
 def is_set_by_filter(names: tuple[str, ...]) -> bool:
-    """Whether the texture must and can be named by a filter; the PLY reader stops at a space."""
-    return len(names) == 1 and _is_spaced(names[0]) and "/" not in names[0]
+    """Whether the only texture must and can be named by a filter, not in the PLY."""
+    return len(names) == 1 and names[0] != plain_name(names[0]) and "/" not in names[0]
 
 
 def selected(records: np.ndarray) -> np.ndarray:

@@ -1,10 +1,14 @@
 """Nothing of the mesh is lost: each promise on a mesh that has everything, then on real meshes."""
 
+import struct
+import zlib
+
 import numpy as np
 import pymeshlab
 import pytest
 
-from meshlab_willmore.meshset import exchange
+from meshlab_willmore import optimize_flips
+from meshlab_willmore.meshset import exchange, sides
 from meshlab_willmore.meshset.sides import fixed_edges
 from meshlab_willmore.meshset.snapshot import take
 from tests import meshes
@@ -138,15 +142,16 @@ def test_a_mesh_without_extras_gets_none():
     assert_same_state(state(ms), before)
 
 
-def test_normals_are_those_of_the_new_faces(bumpy):
+def test_normals_are_those_that_a_native_flip_leaves(bumpy):
     bumpy.apply_filter(FLIP)
     mesh = bumpy.current_mesh()
-    fresh = set_of(mesh.vertex_matrix(), mesh.face_matrix()).current_mesh()
-    # A fresh Mesh gets its normals from PyMeshLab, as after a native filter.
-    assert fresh is not None
     np.testing.assert_allclose(mesh.face_normal_matrix(), _unit_normals(mesh), atol=1e-12)
-    inner = np.einsum("ij,ij->i", mesh.vertex_normal_matrix(), mesh.vertex_matrix())
-    assert (inner > 0).mean() > 0.9
+    normals = mesh.vertex_normal_matrix()
+    np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1.0)
+    a_fresh_one = set_of(mesh.vertex_matrix(), mesh.face_matrix())
+    a_fresh_one.apply_normal_normalization_per_vertex()
+    expected = a_fresh_one.current_mesh().vertex_normal_matrix()
+    np.testing.assert_allclose(normals, expected, atol=1e-12)
 
 
 def _unit_normals(mesh):
@@ -209,15 +214,42 @@ def test_polygons_survive():
     assert polygons_of(ms) == before
 
 
+def test_polygons_of_a_real_mesh_survive():
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(SAMPLES / "cow.obj"))
+    ms.compute_selection_by_condition_per_face(condselect="fi < 2500")
+    ms.meshing_tri_to_quad_dominant()
+    before = polygons_of(ms)
+    assert len(before) > 1000
+    ms.apply_filter(FLIP, selection=False, energy="willmore")
+    assert polygons_of(ms) == before
+
+
 def test_side_bits_move_with_their_sides():
-    """Flips beside polygons turn faces in their slots: the faux bit has to stay on its side."""
-    ms = quad_set()
+    """A flip beside a marked side turns its face in the slot: the mark has to stay on the side."""
+    ms = set_of(*meshes.patch(60))
     snapshot = take(ms)
-    fixed = {frozenset(edge) for edge in fixed_edges(snapshot).tolist()}
-    assert len(fixed) == 32
-    ms.apply_filter(FLIP, selection=False, energy="willmore", monotone=False)
-    after = take(ms)
-    assert {frozenset(edge) for edge in fixed_edges(after).tolist()} == fixed
+    records = snapshot.ply.faces
+    marked = np.flatnonzero(records["vertex_indices"] % 2 == 0)
+    records["flags"] = 0
+    for side in marked:
+        records["flags"][side // 3] |= 1 << (sides._BORDER_BIT + side % 3)
+    new = optimize_flips(snapshot.vertices, snapshot.faces)
+    assert new.flips > 10
+    flags = sides.carry_side_bits(snapshot.ply, new.faces)
+    before = sides_of(snapshot.faces, records["flags"])
+    after = sides_of(new.faces, flags)
+    kept = before.keys() & after.keys()
+    assert len(kept) < len(before), "some sides are flipped away"
+    assert {side: after[side] for side in kept} == {side: before[side] for side in kept}
+    assert not any(after[side] for side in after.keys() - kept), "new sides are not marked"
+
+
+def sides_of(faces, flags):
+    bits = sides._side_bits(flags, sides._BORDER_BIT)
+    heads = np.roll(faces, -1, axis=1)
+    both = zip(faces.ravel().tolist(), heads.ravel().tolist(), strict=True)
+    return dict(zip(both, bits.ravel().tolist(), strict=True))
 
 
 # --- textures ----------------------------------------------------------------------------------
@@ -331,7 +363,9 @@ def test_several_textures_survive(tmp_path, names):
     assert ((middle > 5) == (numbers == numbers[-1])).all(), "no flip across the two textures"
 
 
-@pytest.mark.parametrize("name", ["with space.png", "photo.jpg", "scan.tga"])
+@pytest.mark.parametrize(
+    "name", ["with space.png", "photo.jpg", "scan.tga", "Wände.png", "TEXTUR~1.PNG", "50%25.png"]
+)
 def test_a_texture_keeps_any_name(textured, tmp_path, name):
     exchange._save_image(textured.current_mesh().texture(0), tmp_path / name)
     textured.set_texture_per_mesh(textname=str(tmp_path / name))
@@ -340,6 +374,39 @@ def test_a_texture_keeps_any_name(textured, tmp_path, name):
     textured.apply_filter(FLIP)
     assert_same_state(state(textured), before)
     assert pixels(textured.current_mesh().textures()[name], tmp_path) == image
+
+
+def black_png(side):
+    """A square grey-scale picture."""
+    pixel_rows = zlib.compress(bytes(side * (side + 1)))
+    chunks = [(b"IHDR", struct.pack(">IIBBBBB", side, side, 8, 0, 0, 0, 0))]
+    chunks += [(b"IDAT", pixel_rows), (b"IEND", b"")]
+    return b"\x89PNG\r\n\x1a\n" + b"".join(
+        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        for kind, data in chunks
+    )
+
+
+def test_a_file_of_a_textures_name_in_the_working_folder_is_not_taken(
+    textured, tmp_path, monkeypatch
+):
+    (tmp_path / "TextureDouble_A.png").write_bytes(black_png(4))
+    monkeypatch.chdir(tmp_path)
+    image = pixels(textured.current_mesh().texture(0), tmp_path)
+    textured.apply_filter(FLIP)
+    assert pixels(textured.current_mesh().texture(0), tmp_path) == image
+    assert exchange.Path.cwd() == tmp_path
+
+
+def test_several_oddly_named_textures_are_lost_by_name_only(tmp_path):
+    ms = two_textures(tmp_path, ("a~1.png", "b.png"))
+    with pytest.raises(pymeshlab.PyMeshLabException, match="a~1.png"):
+        ms.apply_filter(FLIP)
+    image = pixels(ms.current_mesh().textures()["a~1.png"], tmp_path)
+    assert ms.apply_filter(FLIP, allowloss=True)["flips"] > 0
+    images = ms.current_mesh().textures()
+    assert set(images) == {"a%7E1.png", "b.png"}
+    assert pixels(images["a%7E1.png"], tmp_path) == image
 
 
 def test_the_current_folder_and_the_users_files_stay(textured, tmp_path, monkeypatch):
@@ -366,6 +433,13 @@ def test_what_would_be_lost_is_an_error_before_anything_changes(bumpy):
     assert bumpy.apply_filter(FLIP, allowloss=True)["flips"] > 0
     after = state(bumpy)
     assert_same_state(after, before)
+
+
+def test_attributes_that_cannot_be_named_are_an_error(bumpy):
+    bumpy.current_mesh().add_vertex_custom_scalar_attribute(np.zeros(300), "two\nlines")
+    with pytest.raises(pymeshlab.PyMeshLabException, match="odd names"):
+        bumpy.apply_filter(FLIP)
+    assert bumpy.apply_filter(FLIP, allowloss=True)["flips"] > 0
 
 
 def test_a_texture_without_image_is_an_error(textured):

@@ -1,18 +1,21 @@
 """Nobody who holds a mesh or counts layers is harmed by a flip."""
 
 import contextlib
+import dataclasses
 import gc
 import os
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
+from pathlib import Path
 
 import numpy as np
 import pymeshlab
 import pytest
 
-from meshlab_willmore.meshset import interrupts, layers
+from meshlab_willmore.meshset import interrupts, layers, native
 from tests import meshes
 from tests.meshset.conftest import FLIP, SAMPLES, random_transform, set_of
 
@@ -52,27 +55,28 @@ def test_a_mesh_in_garbage_does_not_count(bumpy):
         bumpy.apply_filter(FLIP)
     finally:
         gc.enable()
-    assert len(bumpy) == 1
+    assert native.ids(bumpy) == [0]
 
 
-def test_a_held_mesh_is_parked_hidden_and_under_another_name(bumpy):
+def test_a_held_mesh_is_parked_hidden_and_not_counted(bumpy):
     held = bumpy.current_mesh()
     new_id = bumpy.apply_filter(FLIP)["mesh_id"]
     assert new_id == bumpy.current_mesh_id() != held.id()
     assert not held.is_visible()
     assert bumpy.current_mesh().is_visible()
-    assert bumpy.current_mesh().label() == "mesh"
-    assert held.label() == "mesh (before Willmore flips)"
+    assert bumpy.current_mesh().label() == held.label() == "mesh"
+    assert len(bumpy) == bumpy.mesh_number() == 1
+    assert [mesh.id() for mesh in bumpy] == [new_id]
 
 
 def test_a_parked_layer_goes_when_it_is_free(bumpy):
     held = bumpy.current_mesh()
     bumpy.apply_filter(FLIP)
     bumpy.meshing_remove_duplicate_vertices()
-    assert len(bumpy) == 2
+    assert native.ids(bumpy) == [0, 1]
     del held
     bumpy.meshing_remove_duplicate_vertices()
-    assert len(bumpy) == 1
+    assert native.ids(bumpy) == [1]
     assert bumpy.current_mesh_id() == 1
 
 
@@ -83,10 +87,10 @@ def test_sweeping_leaves_the_current_mesh_and_the_script_alone(bumpy):
     del held
     before = script_of(bumpy)
     layers.sweep(bumpy)
-    assert len(bumpy) == 2, "the current mesh must not be swept away"
+    assert native.ids(bumpy) == [0, 1], "the current mesh must not be swept away"
     bumpy.set_current_mesh(1)
     layers.sweep(bumpy)
-    assert len(bumpy) == 1
+    assert native.ids(bumpy) == [1]
     assert script_of(bumpy) == before
 
 
@@ -100,7 +104,52 @@ def test_a_parked_layer_that_the_user_deleted_is_forgotten(bumpy):
     assert len(bumpy) == 1
 
 
-def test_a_loop_over_the_meshes_ends_and_flips_each():
+def test_a_layer_that_the_user_takes_back_is_not_swept(bumpy):
+    held = bumpy.current_mesh()
+    bumpy.apply_filter(FLIP)
+    bumpy.set_mesh_visibility(0, True)
+    del held
+    bumpy.meshing_remove_duplicate_vertices()
+    assert native.ids(bumpy) == [0, 1]
+    assert len(bumpy) == 2
+
+
+def test_clear_forgets_parked_layers_with_all_others(bumpy):
+    held = bumpy.current_mesh()
+    bumpy.apply_filter(FLIP)
+    del held
+    bumpy.clear()
+    for _ in range(2):
+        bumpy.add_mesh(pymeshlab.Mesh(*meshes.tetrahedron()))
+        bumpy.set_current_mesh_visibility(False)
+    bumpy.meshing_remove_duplicate_vertices()
+    assert native.ids(bumpy) == [0, 1]
+
+
+def test_deleting_hidden_layers_spares_parked_ones(bumpy):
+    held = bumpy.current_mesh()
+    faces = held.face_matrix()
+    bumpy.apply_filter(FLIP)
+    bumpy.add_mesh(pymeshlab.Mesh(*meshes.tetrahedron()), set_as_current=False)
+    bumpy.set_mesh_visibility(2, False)
+    bumpy.delete_non_visible_meshes()
+    many_meshes(bumpy)
+    np.testing.assert_array_equal(held.face_matrix(), faces)
+    assert not bumpy.mesh_id_exists(2)
+    assert not held.is_visible()
+
+
+def test_a_deleted_layer_does_not_hand_over_to_a_parked_one(bumpy):
+    held = bumpy.current_mesh()
+    bumpy.apply_filter(FLIP)
+    bumpy.add_mesh(pymeshlab.Mesh(*meshes.tetrahedron()))
+    bumpy.delete_current_mesh()
+    assert held.id() == 0
+    assert bumpy.current_mesh_id() == 1
+
+
+@pytest.mark.parametrize("more", [(), ("apply_coord_taubin_smoothing",)])
+def test_a_loop_over_the_meshes_visits_each_once(more):
     ms = pymeshlab.MeshSet()
     for seed in range(3):
         ms.add_mesh(pymeshlab.Mesh(*meshes.bumpy_sphere(60, seed)))
@@ -108,8 +157,59 @@ def test_a_loop_over_the_meshes_ends_and_flips_each():
     for mesh in ms:
         ms.set_current_mesh(mesh.id())
         flips.append(ms.apply_filter(FLIP)["flips"])
-    assert all(n > 0 for n in flips[:3])
-    assert not any(flips[3:]), "flipped meshes have nothing left to flip"
+        for name in more:
+            ms.apply_filter(name)
+    assert len(flips) == 3
+    assert all(n > 0 for n in flips)
+    del mesh
+    assert len(ms) == 3
+
+
+def test_an_iterator_survives_the_deletion_of_its_layer():
+    ms = pymeshlab.MeshSet()
+    for seed in range(2):
+        ms.add_mesh(pymeshlab.Mesh(*meshes.bumpy_sphere(60, seed)), str(seed))
+    ms.set_current_mesh(0)
+    iterator = iter(ms)
+    assert next(iterator).label() == "0"
+    ms.apply_filter(FLIP)
+    many_meshes(ms, 20)
+    assert [mesh.label() for mesh in iterator] == ["1"]
+
+
+def test_sets_are_told_apart_by_identity():
+    @dataclasses.dataclass
+    class Job(pymeshlab.MeshSet):
+        def __post_init__(self):
+            super().__init__()
+
+    first, second = Job(), Job()
+    assert first == second
+    for ms in (first, second):
+        ms.add_mesh(pymeshlab.Mesh(*meshes.bumpy_sphere(60)))
+    held = first.current_mesh()
+    first.apply_filter(FLIP)
+    second.create_cube()
+    assert held.id() == 0
+    assert layers.parked(first) == {0}
+    assert not layers.parked(second)
+
+
+def test_subclasses_see_their_own_calls_only():
+    calls = []
+
+    class Logged(pymeshlab.MeshSet):
+        def apply_filter(self, name, **kwargs):
+            calls.append(name)
+            return super().apply_filter(name, **kwargs)
+
+    ms = Logged()
+    for seed in range(2):
+        ms.add_mesh(pymeshlab.Mesh(*meshes.bumpy_sphere(60, seed)))
+    ms.set_matrix(transformmatrix=random_transform(), freeze=False)
+    ms.meshing_edge_flip_by_willmore_optimization()
+    ms.compute_scalar_by_willmore_energy_per_vertex()
+    assert calls == ["set_matrix", FLIP, "compute_scalar_by_willmore_energy_per_vertex"]
 
 
 @pytest.mark.parametrize("wanted", [0, 1, 7])
@@ -163,9 +263,10 @@ def test_rasters_stay(bumpy, tmp_path):
 
 
 def script_of(ms):
-    path = layers.Path(layers.tempfile.mkdtemp()) / "script.mlx"
-    ms.save_filter_script(str(path))
-    return path.read_text()
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "script.mlx"
+        ms.save_filter_script(str(path))
+        return path.read_text()
 
 
 def test_the_filter_script_holds_the_users_steps_only(bumpy):
@@ -198,12 +299,12 @@ def test_nothing_is_printed(bumpy, capfd):
 
 def test_muted_hides_c_output_and_nothing_else(capfd):
     pymeshlab.print_pymeshlab_version()
-    with layers.muted():
+    with native.muted():
         pymeshlab.print_pymeshlab_version()
     print("python")
     pymeshlab.print_pymeshlab_version()
     sys.stdout.flush()
-    layers._flush_c_streams()
+    native._flush_c_streams()
     lines = capfd.readouterr().out.split("\n")
     assert sum(line.startswith("PyMeshLab") for line in lines) == 2
     assert "python" in lines
@@ -219,7 +320,7 @@ def test_verbosity_is_restored(capfd):
     assert ours.count("Applying filter") == 1, "the helpers' filters are silent"
     assert "Loading" not in ours
     ms.meshing_remove_duplicate_vertices()
-    layers._flush_c_streams()
+    native._flush_c_streams()
     assert "Applying filter meshing_remove_duplicate_vertices" in capfd.readouterr().out
 
 

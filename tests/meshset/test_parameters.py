@@ -37,7 +37,15 @@ def test_float(value):
 
 @pytest.mark.parametrize(
     ("parameter", "value"),
-    [(FLAG, "yes"), (FLAG, [1]), (COUNT, 2.5), (COUNT, "2"), (COUNT, None), (ANGLE, "x")]
+    [
+        (FLAG, "yes"),
+        (FLAG, [1]),
+        (COUNT, 2.5),
+        (COUNT, "2"),
+        (COUNT, None),
+        (ANGLE, "x"),
+        (COUNT, 2**31),
+    ]
     + [(ANGLE, None), (ANGLE, 10**400), (KIND, 0.5), (KIND, None), (KIND, b"a")],
 )
 def test_wrong_types_are_named(parameter, value):

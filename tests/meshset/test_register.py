@@ -8,7 +8,7 @@ import pymeshlab
 import pytest
 
 import meshlab_willmore
-from meshlab_willmore.meshset import layers, register
+from meshlab_willmore.meshset import native, register
 from meshlab_willmore.meshset.filters import FILTERS
 from tests import meshes
 from tests.meshset.conftest import FLIP, set_of
@@ -43,12 +43,12 @@ def test_print_filter_parameter_list_of_ours_reads_as_that_of_native_ones(capfd)
     pymeshlab.print_filter_parameter_list(FLIP)
     ours = capfd.readouterr().out.splitlines()
     pymeshlab.print_filter_parameter_list(NATIVE)
-    layers._flush_c_streams()
-    native = capfd.readouterr().out.splitlines()
+    native._flush_c_streams()
+    theirs = capfd.readouterr().out.splitlines()
     start = f"{NATIVE} filter - list of parameter names:"
-    native = native[native.index(start) :]
-    assert ours[0] == native[0].replace(NATIVE, FLIP)
-    assert ours[1] == native[1] == "\tselection : bool = False"
+    theirs = theirs[theirs.index(start) :]
+    assert ours[0] == theirs[0].replace(NATIVE, FLIP)
+    assert ours[1] == theirs[1] == "\tselection : bool = False"
     assert "\tenergy : str = 'virtual willmore'" in ours
     assert "\tfoldangle : float = 90" in ours
 
@@ -71,7 +71,7 @@ def test_search_finds_ours(capfd, words):
 
 def test_search_still_finds_native_filters(capfd):
     pymeshlab.search("planar flipping")
-    layers._flush_c_streams()
+    native._flush_c_streams()
     out = capfd.readouterr().out
     assert NATIVE in out
     assert FLIP not in out
@@ -242,6 +242,56 @@ def test_a_failing_half_registration_is_impossible_to_see(monkeypatch):
         register.register()
     assert not register.is_registered()
     assert not hasattr(pymeshlab.MeshSet, FLIP)
+
+
+AGAIN = """
+import sys
+import pymeshlab, meshlab_willmore
+for name in [name for name in sys.modules if name.startswith("meshlab_willmore")]:
+    del sys.modules[name]
+import meshlab_willmore
+ms = pymeshlab.MeshSet()
+ms.create_cube()
+assert ms.meshing_edge_flip_by_willmore_optimization()["flips"] == 0
+meshlab_willmore.unregister()
+assert not hasattr(ms, "meshing_edge_flip_by_willmore_optimization")
+"""
+
+
+def test_a_second_import_after_a_reload_takes_over():
+    run = subprocess.run([sys.executable, "-c", AGAIN], capture_output=True, text=True)
+    assert (run.returncode, run.stdout, run.stderr) == (0, "", "")
+
+
+NO_LIBRARY = """
+import importlib.abc, sys
+
+class Missing(importlib.abc.MetaPathFinder):
+    def find_spec(self, name, path, target=None):
+        if name == "pymeshlab":
+            raise ImportError(sys.argv[1])
+
+sys.meta_path.insert(0, Missing())
+try:
+    import meshlab_willmore
+except ImportError as error:
+    print(error)
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "cured"),
+    [
+        ("libGL.so.1: cannot open shared object file: No such file or directory", True),
+        ("cannot import name 'x' (/usr/lib/python3/dist-packages/x.py)", False),
+    ],
+)
+def test_a_missing_system_library_is_an_error_with_a_cure(text, cured):
+    run = subprocess.run(
+        [sys.executable, "-c", NO_LIBRARY, text], capture_output=True, text=True, check=True
+    )
+    assert text in run.stdout
+    assert ("apt-get install libgl1 libopengl0" in run.stdout) is cured
 
 
 IMPORTED = """

@@ -1,0 +1,162 @@
+"""PyMeshLab's own functions, called so that nobody can tell.
+
+Helper filters of this package don't show in a set's filter script, print nothing, and are not seen
+by subclasses or wrappers of `MeshSet`.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import os
+import sys
+import tempfile
+import weakref
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, Generic, NamedTuple, TypeVar
+
+import numpy as np
+import pymeshlab
+from pymeshlab import MeshSet
+
+# As they are before `register` replaces them.
+_apply_filter = MeshSet.apply_filter
+_clear = MeshSet.clear
+_iterate = MeshSet.__iter__
+_set_parameter_verbosity = MeshSet.set_parameter_verbosity
+_set_verbosity = MeshSet.set_verbosity
+
+Value = TypeVar("Value")
+
+
+class PerSet(Generic[Value]):
+    """A value for each `MeshSet`, told apart by identity, whatever a subclass calls equal."""
+
+    def __init__(self, default: Value) -> None:
+        self._default = default
+        self._values: dict[int, Value] = {}
+
+    def get(self, ms: MeshSet) -> Value:
+        """The value of `ms`, or the default."""
+        return self._values.get(id(ms), self._default)
+
+    def put(self, ms: MeshSet, value: Value) -> None:
+        """Set the value of `ms`; it goes when the set goes."""
+        if id(ms) not in self._values:
+            weakref.finalize(ms, self._values.pop, id(ms), None).atexit = False
+        self._values[id(ms)] = value
+
+
+def apply(ms: MeshSet, name: str, **given: Any) -> dict[str, Any]:
+    """Apply a native filter."""
+    return _apply_filter(ms, name, **given)
+
+
+def clear(ms: MeshSet) -> None:
+    """Empty the set; ids start again at 0."""
+    _clear(ms)
+
+
+def ids(ms: MeshSet) -> list[int]:
+    """The ids of all layers, in their order."""
+    return [mesh.id() for mesh in _iterate(ms)]
+
+
+@contextmanager
+def without_trace(ms: MeshSet) -> Iterator[None]:
+    """Native filters inside print nothing and don't stay in the filter script of `ms`."""
+    with _quiet(ms), _unrecorded(ms):
+        yield
+
+
+@contextmanager
+def _unrecorded(ms: MeshSet) -> Iterator[None]:
+    with tempfile.TemporaryDirectory(prefix="meshlab_willmore_") as folder:
+        path = Path(folder) / "before.mlx"
+        ms.save_filter_script(str(path))
+        before = path.read_bytes()
+        try:
+            yield
+        finally:
+            after = Path(folder) / "after.mlx"
+            ms.save_filter_script(str(after))
+            if after.read_bytes() != before:
+                ms.clear_filter_script()
+                if b"<filter" in before:
+                    with muted():
+                        ms.load_filter_script(str(path))
+
+
+class Verbosity(NamedTuple):
+    """What a set prints: `all` of a filter's doings, or its `parameters` only."""
+
+    all: bool = False
+    parameters: bool = False
+
+
+# PyMeshLab has no way to ask, so `register` notes what it is told.
+_verbosity: PerSet[Verbosity] = PerSet(Verbosity())
+
+
+def note_verbosity(ms: MeshSet, **changes: bool) -> None:
+    """Remember that `ms` was told to print more or less; `changes` are fields of `Verbosity`."""
+    _verbosity.put(ms, verbosity(ms)._replace(**changes))
+
+
+def verbosity(ms: MeshSet) -> Verbosity:
+    """What `ms` prints, as far as is known."""
+    return _verbosity.get(ms)
+
+
+@contextmanager
+def _quiet(ms: MeshSet) -> Iterator[None]:
+    before = verbosity(ms)
+    if before == Verbosity():
+        yield
+        return
+    _set_verbosity(ms, False)
+    _set_parameter_verbosity(ms, False)
+    try:
+        yield
+    finally:
+        _set_verbosity(ms, before.all)
+        _set_parameter_verbosity(ms, before.parameters)
+
+
+@contextmanager
+def muted() -> Iterator[None]:
+    """PyMeshLab's C++ side prints nothing inside, not even what no verbosity controls.
+
+    Its streams don't ask Python, so the file descriptors are turned away, for the while of one
+    short call.
+    """
+    with contextlib.ExitStack() as stack:
+        _flush_c_streams()
+        for descriptor in (1, 2):
+            # A program without a console has no such descriptors, and nothing to hide.
+            with contextlib.suppress(OSError):
+                saved = os.dup(descriptor)
+                stack.callback(os.close, saved)
+                stack.callback(os.dup2, saved, descriptor)
+                with open(os.devnull, "wb") as sink:
+                    os.dup2(sink.fileno(), descriptor)
+        stack.callback(_flush_c_streams)
+        yield
+
+
+def _flush_c_streams() -> None:
+    runtime = ctypes.CDLL("ucrtbase" if sys.platform == "win32" else None)
+    runtime.fflush(None)
+
+
+def forget_failures() -> None:
+    """Make saving and loading safe after a native filter failed.
+
+    A filter that fails leaves PyMeshLab with a pointer to the log of its set, which the next
+    file operation writes to, even if the set is gone by then. A filter that succeeds clears it.
+    """
+    helper = MeshSet()
+    helper.add_mesh(pymeshlab.Mesh(np.zeros((1, 3))))
+    apply(helper, "set_selection_none")

@@ -1,0 +1,95 @@
+"""Writing numbers into the vertex scalar of a mesh inside a set.
+
+PyMeshLab has no function for it, so native filters bring the numbers in place: a helper layer hands
+them over. It takes an id of the set, and leaves nothing else behind. A custom attribute would be
+quicker, but could never be removed again.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pymeshlab
+from pymeshlab import MeshSet
+
+from . import native
+
+# muParser, which evaluates MeshLab's functions, takes 20000 characters; a value with its test
+# and brackets takes at most 40.
+_VALUES_PER_FUNCTION = 400
+
+# PyMeshLab's grid for the nearest point crashes where squares of coordinates overflow.
+_LARGEST_COORDINATE = 1e150
+
+
+def write_vertex_scalar(ms: MeshSet, scalar: np.ndarray) -> None:
+    """Write `scalar`, (n,) float64, into the vertex scalar of the current mesh.
+
+    Raises
+    ------
+    pymeshlab.PyMeshLabException
+        If coordinates are too large for PyMeshLab's filters.
+    """
+    _check_size(ms.current_mesh().vertex_matrix())
+    with native.without_trace(ms):
+        _transfer(ms, scalar)
+        _correct(ms, scalar)
+
+
+def _check_size(vertices: np.ndarray) -> None:
+    too_large = (np.abs(vertices) > _LARGEST_COORDINATE).any(axis=1)
+    if too_large.any():
+        vertex = int(np.argmax(too_large))
+        raise pymeshlab.PyMeshLabException(
+            f"vertex {vertex} has a coordinate above {_LARGEST_COORDINATE:g}; "
+            "compute_matrix_from_scaling_or_normalization makes the mesh smaller"
+        )
+
+
+def _transfer(ms: MeshSet, scalar: np.ndarray) -> None:
+    """Give each vertex the value of the nearest point of a helper layer: of itself.
+
+    The transfer moves both layers by their transforms and back, which costs last digits: it runs
+    without one.
+    """
+    target = ms.current_mesh_id()
+    transform = ms.current_mesh().transform_matrix()
+    vertices = ms.current_mesh().vertex_matrix()
+    native.apply(ms, "set_matrix_identity")
+    ms.add_mesh(pymeshlab.Mesh(vertices, v_scalar_array=scalar), "Willmore energy")
+    helper = ms.current_mesh_id()
+    try:
+        native.apply(
+            ms,
+            "transfer_attributes_per_vertex",
+            sourcemesh=helper,
+            targetmesh=target,
+            vertexsampling=True,
+            colortransfer=False,
+            qualitytransfer=True,
+            upperbound=pymeshlab.PercentageValue(1),
+            onselected=False,
+        )
+    finally:
+        ms.set_current_mesh(helper)
+        native.apply(ms, "delete_current_mesh")
+        ms.set_current_mesh(target)
+        native.apply(ms, "set_matrix", transformmatrix=transform, compose=False, freeze=False)
+
+
+def _correct(ms: MeshSet, scalar: np.ndarray) -> None:
+    """Set one by one what the transfer mixed up: vertices in the same place."""
+    wrong = np.flatnonzero(ms.current_mesh().vertex_scalar_array() != scalar)
+    for start in range(0, len(wrong), _VALUES_PER_FUNCTION):
+        part = wrong[start : start + _VALUES_PER_FUNCTION]
+        function = _function_of_index(part, scalar[part])
+        native.apply(ms, "compute_scalar_by_function_per_vertex", q=function)
+
+
+def _function_of_index(indices: np.ndarray, values: np.ndarray) -> str:
+    """A function of MeshLab's that is values[p] at vertex indices[p], elsewhere the scalar."""
+    if len(indices) == 1:
+        return f"(vi=={indices[0]}?{float(values[0])!r}:q)"
+    middle = len(indices) // 2
+    lower = _function_of_index(indices[:middle], values[:middle])
+    upper = _function_of_index(indices[middle:], values[middle:])
+    return f"(vi<{indices[middle]}?{lower}:{upper})"

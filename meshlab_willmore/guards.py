@@ -9,12 +9,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .mesh.build import edge_ends
-from .mesh.halfedge import NONE, diamond
+from .mesh.build import sort_by_vertex
+from .mesh.halfedge import NONE, diamond, following, previous
 from .mesh.jit import jit
 from .mesh.points import angle_between, dot, norm, normal, subtract
 
 FLAT_ANGLE = 180.0
+# Files hold coordinates in single precision: that far, in radians, the angles of a technical part
+# are from the round numbers they were drawn with.
+CREASE_SLACK = math.radians(0.01)
+# The normal of a face of a lower shape is made of rounding, for the same reason.
+CREASE_SHAPE = 1e-5
 SHAPE_OF_EQUILATERAL = 2.0 * math.sqrt(3.0)
 
 
@@ -97,27 +102,63 @@ def lock_unselected(mesh, selected):
 
 @jit
 def lock_creases(mesh, limit):
-    """Lock, in place, every edge whose dihedral angle exceeds `limit` (radians)."""
+    """Lock, in place, every edge whose dihedral angle is `limit` (radians) or more.
+
+    Both the limit and flatness are met up to `CREASE_SLACK`, so that rounding decides nothing: the
+    edges of a cylinder with twelve sides are creases at 30 degrees wherever it stands (to keep an
+    edge too many harms no shape, to lose one does), and edges between coplanar faces are none even
+    at 0 degrees. Degenerate faces have no creases.
+    """
+    least = max(limit - CREASE_SLACK, CREASE_SLACK)
     for h in range(len(mesh.origin)):
-        if h < mesh.twin[h] and dihedral_angle(mesh, h) > limit:
+        if h < mesh.twin[h] and dihedral_angle(mesh, h) >= least and not _is_degenerate(mesh, h):
             _lock(mesh, h)
 
 
+@jit
+def _is_degenerate(mesh, h):
+    """Tell whether one of the two faces at `h` has no normal to speak of."""
+    i, j, k, l = diamond(mesh, h)
+    return min(triangle_shape(i, j, k), triangle_shape(j, i, l)) < CREASE_SHAPE
+
+
 def lock_edges(mesh, edges):
-    """Lock, in place, the edges given as vertex pairs (e, 2).
+    """Lock, in place, the edges given as vertex pairs (e, 2) int64.
 
     Raises
     ------
     ValueError
         Names the first pair that is no edge of the mesh.
     """
-    low, high = edge_ends(mesh.origin.reshape(-1, 3))
-    present = low.astype(np.int64) * len(mesh.vertices) + high
-    wanted_low, wanted_high = edges.min(axis=1), edges.max(axis=1)
-    wanted = wanted_low.astype(np.int64) * len(mesh.vertices) + wanted_high
-    known = np.isin(wanted, present) & (wanted_low >= 0) & (wanted_high < len(mesh.vertices))
-    if not known.all():
-        first = int(np.argmin(known))
-        a, b = edges[first]
-        raise ValueError(f"locked_edges[{first}] = ({a}, {b}) is not an edge of the mesh")
-    mesh.locked[np.isin(present, wanted)] = True
+    vertex_count = len(mesh.vertices)
+    outside = ((edges < 0) | (edges >= vertex_count)).any(axis=1)
+    inside = edges[: np.argmax(outside)] if outside.any() else edges
+    starts = np.empty(vertex_count + 2, np.int64)
+    by_origin = sort_by_vertex(np.arange(len(mesh.origin), dtype=np.int32), mesh.origin, starts)
+    first_wrong = _lock_pairs(mesh, inside, by_origin, starts)
+    if first_wrong < len(edges):
+        a, b = edges[first_wrong]
+        raise ValueError(f"locked_edges[{first_wrong}] = ({a}, {b}) is not an edge of the mesh")
+
+
+@jit
+def _lock_pairs(mesh, pairs, by_origin, starts):
+    """Lock the edges `pairs` in place; return the number of pairs before the first that is none.
+
+    The half-edges are given by origin, as `sort_by_vertex` leaves them. Not by their twins: edges
+    that are not manifold have none, but are edges too.
+    """
+    for e in range(len(pairs)):
+        a, b = pairs[e]
+        # The end with fewer faces is the one to search: the other may have a great many.
+        if starts[a + 1] - starts[a] > starts[b + 1] - starts[b]:
+            a, b = b, a
+        found = False
+        for h in by_origin[starts[a] : starts[a + 1]]:
+            if mesh.origin[following(h)] == b:
+                mesh.locked[h] = found = True
+            if mesh.origin[previous(h)] == b:
+                mesh.locked[previous(h)] = found = True
+        if not found:
+            return e
+    return len(pairs)

@@ -27,14 +27,15 @@ class Measures(NamedTuple):
     area : float
         Total area, in squared units of the coordinates.
     gaussian_curvature : float
-        Sum of 2 pi - (sum of the angles) over the inner vertices, in radians; 2 pi times the Euler
-        characteristic on a closed mesh.
+        Sum of 2 pi - (sum of the angles) over the interior vertices, in radians; 2 pi times the
+        Euler characteristic on a closed mesh.
     absolute_gaussian_curvature : float
         The same with absolute values.
     absolute_mean_curvature : float
-        Sum of (angle between the normals) times length over the inner edges, in units of length.
+        Sum of (angle between the normals) times length over the interior edges, in units of
+        length.
     willmore_energy : float
-        Sum of W(v) over the inner vertices, in radians.
+        Sum of W(v) over the interior vertices, in radians.
     """
 
     area: float
@@ -45,7 +46,7 @@ class Measures(NamedTuple):
 
 
 def willmore_energy(vertices, faces):
-    """Return the Willmore energy of a mesh: the sum of W(v) over its inner vertices.
+    """Return the Willmore energy of a mesh: the sum of W(v) over its interior vertices.
 
     Parameters
     ----------
@@ -112,15 +113,16 @@ def intersection_angles(vertices, faces):
         As `meshlab_willmore.mesh.validate.check_mesh`.
     """
     mesh = _unit_mesh(vertices, faces)[0]
-    inner = _inner_edges(mesh)
-    edges = np.column_stack([mesh.origin[inner], mesh.origin[mesh.twin[inner]]])
-    return edges, np.nan_to_num(_edge_angles(mesh, inner))
+    interior = _interior_edges(mesh)
+    edges = np.column_stack([mesh.origin[interior], mesh.origin[mesh.twin[interior]]])
+    return edges, np.nan_to_num(_edge_angles(mesh, interior))
 
 
 def measures(vertices, faces):
     """Return all the totals of the paper's section 2.
 
-    Curvatures are summed over inner edges, and over vertices whose faces form one closed fan.
+    Curvatures are summed over interior edges (those with exactly two faces of the same orientation)
+    and over interior vertices (those whose faces form one closed fan).
 
     Parameters
     ----------
@@ -186,14 +188,14 @@ def _rescaled(value, exponent):
         return float(np.ldexp(value, exponent))
 
 
-def _inner_edges(mesh):
+def _interior_edges(mesh):
     """Return the lower half-edge of each edge with a twin."""
     return np.flatnonzero(np.arange(len(mesh.twin)) < mesh.twin)
 
 
 def _vertex_energy(mesh):
-    inner = _inner_edges(mesh)
-    sums = _sums_at_ends(mesh, inner, _edge_angles(mesh, inner))
+    edges = _interior_edges(mesh)
+    sums = _sums_at_ends(mesh, edges, _edge_angles(mesh, edges))
     defined = interior_vertices(mesh) & np.isfinite(sums)
     return np.where(defined, sums - FULL_TURN, 0.0)
 

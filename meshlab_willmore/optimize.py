@@ -29,7 +29,7 @@ SEARCHES = {
     },
 }
 REASONS = {
-    greedy.CONVERGED: "no flip lowers the energy any more",
+    greedy.CONVERGED: "no allowed flip lowers the energy any more",
     greedy.STOPPED: "maxflips reached",
 }
 
@@ -47,9 +47,16 @@ class FlipResult(NamedTuple):
         Sum of the cost reductions of the flips, in the chosen energy (radians). For the energy
         "willmore" on a closed mesh it is `willmore_before` - `willmore_after`.
     willmore_before, willmore_after : float
-        Willmore energy of the mesh, as `meshlab_willmore.measure.willmore_energy` gives it.
+        Willmore energy of the mesh, as `meshlab_willmore.measure.willmore_energy` gives it: summed
+        over interior vertices. On a mesh with a boundary it leaves out what the edges carry at
+        their ends on the boundary, and can rise although the objective of the flips falls, which
+        is twice the sum of the intersection angles over all interior edges. On a closed mesh the
+        two differ by a constant.
     converged : bool
-        True if no allowed flip lowers the energy any more.
+        True if no allowed flip lowers the energy any more. Allowed is what neither connectivity,
+        locks and the fold guard nor the rule of the option `monotone` forbid. With True, that rule
+        forbids flips that raise the Willmore energy; with False, flips to an edge that was flipped
+        away before. So there may be flips left that would lower the energy.
     reason : str
         Why it stopped.
     corners : (m, 3) int32
@@ -89,11 +96,12 @@ def optimize_flips(
     locked_edges=None,
     maxflips=None,
 ):
-    """Flip edges of a triangle mesh until no flip lowers the energy any more.
+    """Flip edges of a triangle mesh until no allowed flip lowers the energy any more.
 
     The vertices stay where they are. Never flipped are boundary and non-manifold edges, edges
-    between faces of opposite orientation, edges whose flipped version exists already, and edges
-    next to coincident vertices.
+    between faces of opposite orientation, edges whose flipped version exists already, edges whose
+    flip would leave a corner with fewer than three edges (so two triangles alone never flip), and
+    edges next to coincident vertices.
 
     Parameters
     ----------
@@ -106,15 +114,19 @@ def optimize_flips(
     search : {"greedy"}
         How to minimise it: always the flip of the largest cost reduction.
     monotone : bool
-        Make no flip that raises the Willmore energy. The paper has no such rule; without it, an
-        edge that was flipped away never comes back, as the search might not end otherwise.
+        Make no flip that raises the Willmore energy, in the form that counts every interior edge:
+        twice the sum of their intersection angles. (With a boundary, that is not the number
+        `willmore_after` of the result, which may rise; see there.) The paper has no such rule;
+        without it, an edge that was flipped away never comes back, as the search might not end
+        otherwise.
     foldangle : float
         Degrees in [0, 180]. Refuse flips to an edge with a larger dihedral angle (0 is flat) than
         this and than the old edge, and flips to a sliver (shape below 0.05 and below the worse old
         one). 180: allow all.
     featuredeg : float
-        Degrees in [0, 180]. Keep edges whose dihedral angle exceeds this in the input. 180: keep
-        none.
+        Degrees in [0, 180]. Keep edges whose dihedral angle in the input is this or more, up to
+        0.01 degrees either way: at 30, the sides of a cylinder with twelve of them stay. 0: keep
+        all but those between coplanar faces. 180: keep none.
     selected_faces : (m,) array_like of bool, optional
         Flip only edges between two selected faces.
     locked_edges : (e, 2) array_like of int, optional

@@ -40,7 +40,7 @@ def edge_angles(vertices, faces):
 
 
 def objective(vertices, faces):
-    """Twice the sum of the angles over the inner edges."""
+    """Twice the sum of the angles over the interior edges."""
     return float(2 * edge_angles(vertices, faces)[1].sum())
 
 
@@ -85,7 +85,7 @@ def edge_set(faces):
 
 def interior_vertices(faces, count):
     """Mask of the vertices whose faces form one closed fan, by walking round each."""
-    inner = np.zeros(count, bool)
+    interior = np.zeros(count, bool)
     rolled = [np.roll(face, -c).tolist() for face in np.asarray(faces) for c in range(3)]
     for v in range(count):
         around = [(b, c) for a, b, c in rolled if a == v]
@@ -97,8 +97,8 @@ def interior_vertices(faces, count):
         while steps == 0 or here != start:
             here = ahead[here]
             steps += 1
-        inner[v] = steps == len(around)
-    return inner
+        interior[v] = steps == len(around)
+    return interior
 
 
 def vertex_energy(vertices, faces):
@@ -108,6 +108,38 @@ def vertex_energy(vertices, faces):
     np.add.at(energy, rows[:, 0], beta)
     np.add.at(energy, rows[:, 1], beta)
     return np.where(interior_vertices(faces, len(vertices)), energy - 2 * np.pi, 0).astype(float)
+
+
+def angle_defects(vertices, faces):
+    """2 pi minus the angles of the faces, by the cosine rule, at the interior vertices."""
+    corners = np.asarray(vertices, np.longdouble)[faces]
+    defects = np.full(len(vertices), 2 * np.pi, np.longdouble)
+    for c in range(3):
+        opposite, left, right = (
+            np.sqrt(np.sum((corners[:, a % 3] - corners[:, b % 3]) ** 2, axis=1))
+            for a, b in ((c + 1, c + 2), (c, c + 1), (c, c + 2))
+        )
+        cosine = (left**2 + right**2 - opposite**2) / (2 * left * right)
+        np.subtract.at(defects, np.asarray(faces)[:, c], np.arccos(np.clip(cosine, -1, 1)))
+    return defects[interior_vertices(faces, len(vertices))].astype(float)
+
+
+def mean_curvature(vertices, faces):
+    """Sum over the interior edges of the length times the angle that the faces are bent by.
+
+    The angle is that between the heights of k and l over the edge, taken across it.
+    """
+    i, j, k, l = np.asarray(vertices, np.longdouble)[diamonds(faces)].transpose(1, 0, 2)
+    along = j - i
+    squared = np.sum(along**2, axis=1, keepdims=True)
+
+    def height(apex):
+        offset = apex - i
+        offset -= along * np.sum(offset * along, axis=1, keepdims=True) / squared
+        return offset / np.sqrt(np.sum(offset**2, axis=1, keepdims=True))
+
+    cosine = np.clip(-np.sum(height(k) * height(l), axis=1), -1, 1)
+    return float(np.sum(np.arccos(cosine) * np.sqrt(squared[:, 0])))
 
 
 def _apexes(faces, a, b):

@@ -70,6 +70,16 @@ def test_totals_of_closed_meshes(name):
     assert totals.absolute_gaussian_curvature >= abs(totals.gaussian_curvature)
 
 
+def test_curvatures_are_those_of_the_reference(mesh):
+    vertices, faces = mesh
+    totals = measures(vertices, faces)
+    defects = reference.angle_defects(vertices, faces)
+    assert totals.gaussian_curvature == pytest.approx(defects.sum(), abs=1e-11)
+    assert totals.absolute_gaussian_curvature == pytest.approx(np.abs(defects).sum(), abs=1e-11)
+    bent = reference.mean_curvature(vertices, faces)
+    assert totals.absolute_mean_curvature == pytest.approx(bent, abs=1e-9)
+
+
 def test_known_values_of_a_cube():
     totals = measures(*meshes.cube(push=0.0))
     assert totals == pytest.approx(

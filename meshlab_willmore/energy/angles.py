@@ -40,13 +40,20 @@ NO_ANGLES = AngleSum(1.0, 0.0, 0.0)
 
 
 @jit
-def turn(a, b, p, q):
+def turn(a_p, b_p, a_q, b_q):
     """Return the intersection angle at the edge a-b of the faces (a, b, p) and (b, a, q).
 
-    Its length lies between 0.7 and 1; it is NaN if one of a, b coincides with one of p, q.
+    Parameters
+    ----------
+    a_p, b_p, a_q, b_q : Point
+        The vectors between these points; those of a pair point the same way, to the apex or from
+        it. Differences, and not points, since they keep the digits that matter far from the origin.
+
+    Returns
+    -------
+    Turn
+        Of a length between 0.7 and 1; NaN if one of a, b coincides with one of p, q.
     """
-    a_p, b_p = subtract(a, p), subtract(b, p)
-    a_q, b_q = subtract(a, q), subtract(b, q)
     c1, n1 = dot(a_p, b_p), cross(a_p, b_p)
     c2, n2 = dot(b_q, a_q), cross(b_q, a_q)
     n3 = cross(n1, n2)
@@ -63,8 +70,8 @@ def turn(a, b, p, q):
 
 @jit
 def angle(a, b, p, q):
-    """Return the intersection angle in [0, pi] that `turn` returns as a complex number."""
-    beta = turn(a, b, p, q)
+    """Return the angle in [0, pi] that `turn` returns as a complex number, for four points."""
+    beta = turn(subtract(a, p), subtract(b, p), subtract(a, q), subtract(b, q))
     return math.atan2(beta.s, beta.r)
 
 

@@ -4,30 +4,38 @@ from typing import NamedTuple
 
 from ..mesh.halfedge import NONE, apex, following, previous
 from ..mesh.jit import jit
-from ..mesh.points import Point, point
+from ..mesh.points import Point, point, subtract
 from .angles import NO_ANGLES, Turn, add, turn
 
 
-class Corners(NamedTuple):
-    """The third corner of the face that lies at each side of the diamond, inside the quad."""
+class View(NamedTuple):
+    """A side of the diamond seen from inside: vectors from the face's third corner to its ends."""
 
-    j_k: Point
-    k_i: Point
-    i_l: Point
-    l_j: Point
+    start: Point
+    end: Point
+
+
+class Views(NamedTuple):
+    """The four sides of the diamond, each seen from the face inside the quad that has it."""
+
+    j_k: View
+    k_i: View
+    i_l: View
+    l_j: View
 
 
 @jit
-def _turn_at(mesh, side, a, b, inner):
-    """Return the turn at the half-edge `side` from a to b of a face (a, b, inner)."""
+def _turn_at(mesh, side, a, b, view):
+    """Return the turn at the half-edge `side` from a to b, seen from inside as `view`."""
     t = mesh.twin[side]
     if t == NONE:
         return Turn(1.0, 0.0)
-    return turn(a, b, inner, point(mesh.vertices, apex(mesh, t)))
+    outside = point(mesh.vertices, apex(mesh, t))
+    return turn(view.start, view.end, subtract(a, outside), subtract(b, outside))
 
 
 @jit
-def side_angles(mesh, h, quad, corners):
+def side_angles(mesh, h, quad, views):
     """Return the sum of the angles at the four sides of the quad around `h`.
 
     Boundary sides have no angle and add nothing.
@@ -39,15 +47,15 @@ def side_angles(mesh, h, quad, corners):
         Half-edge with a twin.
     quad : Diamond
         The points around it.
-    corners : Corners
-        What stands inside the quad opposite to each side.
+    views : Views
+        The sides as seen from inside the quad.
 
     Returns
     -------
     AngleSum
     """
     t = mesh.twin[h]
-    total = add(NO_ANGLES, _turn_at(mesh, following(h), quad.j, quad.k, corners.j_k))
-    total = add(total, _turn_at(mesh, previous(h), quad.k, quad.i, corners.k_i))
-    total = add(total, _turn_at(mesh, following(t), quad.i, quad.l, corners.i_l))
-    return add(total, _turn_at(mesh, previous(t), quad.l, quad.j, corners.l_j))
+    total = add(NO_ANGLES, _turn_at(mesh, following(h), quad.j, quad.k, views.j_k))
+    total = add(total, _turn_at(mesh, previous(h), quad.k, quad.i, views.k_i))
+    total = add(total, _turn_at(mesh, following(t), quad.i, quad.l, views.i_l))
+    return add(total, _turn_at(mesh, previous(t), quad.l, quad.j, views.l_j))

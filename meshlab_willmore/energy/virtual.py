@@ -9,27 +9,47 @@ energy", section 3.
 
 import math
 
-from ..mesh.halfedge import diamond
+from ..mesh.halfedge import Diamond, diamond
 from ..mesh.jit import jit
-from ..mesh.points import middle
+from ..mesh.points import from_middle, subtract
 from . import willmore
 from .angles import add, radians, turn
-from .sides import Corners, side_angles
+from .sides import View, Views, side_angles
 
 
 @jit
-def _add_spokes(angles, quad, v):
-    """Add the angles at the edges from the virtual vertex `v` to the corners of the quad."""
-    angles = add(angles, turn(v, quad.i, quad.l, quad.k))
-    angles = add(angles, turn(v, quad.l, quad.j, quad.i))
-    angles = add(angles, turn(v, quad.j, quad.k, quad.l))
-    return add(angles, turn(v, quad.k, quad.i, quad.j))
+def _spokes(quad, a, b):
+    """Return the vectors to the corners of the quad from the middle of a-b."""
+    return Diamond(
+        from_middle(a, b, quad.i),
+        from_middle(a, b, quad.j),
+        from_middle(a, b, quad.k),
+        from_middle(a, b, quad.l),
+    )
 
 
 @jit
-def _virtual_angles(mesh, h, quad, v):
-    """Return the sum of the angles at the spokes of `v` and at the sides of the quad."""
-    return radians(_add_spokes(side_angles(mesh, h, quad, Corners(v, v, v, v)), quad, v))
+def _views(spokes):
+    """Return the sides of the quad as the virtual vertex sees them."""
+    i, j, k, l = spokes
+    return Views(View(j, k), View(k, i), View(i, l), View(l, j))
+
+
+@jit
+def _add_spokes(angles, quad, spokes):
+    """Add the angles at the edges from the virtual vertex to the corners of the quad."""
+    i, j, k, l = quad
+    angles = add(angles, turn(spokes.l, subtract(l, i), spokes.k, subtract(k, i)))
+    angles = add(angles, turn(spokes.j, subtract(j, l), spokes.i, subtract(i, l)))
+    angles = add(angles, turn(spokes.k, subtract(k, j), spokes.l, subtract(l, j)))
+    return add(angles, turn(spokes.i, subtract(i, k), spokes.j, subtract(j, k)))
+
+
+@jit
+def _virtual_angles(mesh, h, quad, spokes):
+    """Return the sum of the angles at the spokes and at the sides of the quad."""
+    sides = side_angles(mesh, h, quad, _views(spokes))
+    return radians(_add_spokes(sides, quad, spokes))
 
 
 @jit
@@ -48,8 +68,8 @@ def cost_reduction(mesh, h):
         In radians; positive where the flip helps, minus infinity where an angle is undefined.
     """
     quad = diamond(mesh, h)
-    before = _virtual_angles(mesh, h, quad, middle(quad.i, quad.j))
-    after = _virtual_angles(mesh, h, quad, middle(quad.k, quad.l))
+    before = _virtual_angles(mesh, h, quad, _spokes(quad, quad.i, quad.j))
+    after = _virtual_angles(mesh, h, quad, _spokes(quad, quad.k, quad.l))
     gain = 2.0 * (before - after)
     return gain if math.isfinite(gain) else -math.inf
 

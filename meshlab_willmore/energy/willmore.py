@@ -1,4 +1,4 @@
-"""The Willmore energy of a mesh: twice the sum of the intersection angles over all inner edges.
+"""The Willmore energy of a mesh: twice the sum of the intersection angles over interior edges.
 
 On a closed mesh it differs from Bobenko's sum of W(v) = (sum of beta at v) - 2 pi by the constant
 2 pi |V|, so it is lowered by the same flips. Boundary edges have no angle and contribute nothing.
@@ -6,15 +6,40 @@ Source: "Mesh optimisation based on Willmore energy", section 2, and A. I. Boben
 energy for simplicial surfaces", 2005.
 
 A flip of i-j leaves the angle at the diagonal alone (beta(i-j) = beta(k-l)) and changes those at
-the four sides of the quad, whose inner corner becomes the other end of the new edge.
+the four sides of the quad: the third corner of the face inside is now an end of the new edge.
 """
 
 import math
 
 from ..mesh.halfedge import diamond
 from ..mesh.jit import jit
+from ..mesh.points import subtract
 from .angles import angle, radians
-from .sides import Corners, side_angles
+from .sides import View, Views, side_angles
+
+
+@jit
+def _views_before(quad):
+    """Return the sides as the faces (i, j, k) and (j, i, l) see them."""
+    i, j, k, l = quad
+    return Views(
+        View(subtract(j, i), subtract(k, i)),
+        View(subtract(k, j), subtract(i, j)),
+        View(subtract(i, j), subtract(l, j)),
+        View(subtract(l, i), subtract(j, i)),
+    )
+
+
+@jit
+def _views_after(quad):
+    """Return the sides as the faces (k, i, l) and (l, j, k) see them."""
+    i, j, k, l = quad
+    return Views(
+        View(subtract(j, l), subtract(k, l)),
+        View(subtract(k, l), subtract(i, l)),
+        View(subtract(i, k), subtract(l, k)),
+        View(subtract(l, k), subtract(j, k)),
+    )
 
 
 @jit
@@ -33,8 +58,8 @@ def cost_reduction(mesh, h):
         In radians; positive where the flip helps, minus infinity where an angle is undefined.
     """
     quad = diamond(mesh, h)
-    before = side_angles(mesh, h, quad, Corners(quad.i, quad.j, quad.j, quad.i))
-    after = side_angles(mesh, h, quad, Corners(quad.l, quad.l, quad.k, quad.k))
+    before = side_angles(mesh, h, quad, _views_before(quad))
+    after = side_angles(mesh, h, quad, _views_after(quad))
     gain = 2.0 * (radians(before) - radians(after))
     return gain if math.isfinite(gain) else -math.inf
 

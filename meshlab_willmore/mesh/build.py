@@ -7,17 +7,28 @@ from .jit import jit
 
 
 @jit
-def _sort_by_vertex(order, vertex, starts):
-    """Return `order` stably sorted by `vertex[order]`; `starts` (n + 1,) is scratch space."""
+def sort_by_vertex(order, vertex, starts):
+    """Return `order` stably sorted by `vertex[order]`, in O(n + entries) time.
+
+    Parameters
+    ----------
+    order : (e,) int
+        Indices into `vertex`.
+    vertex : array of int
+        Vertices in 0 .. n - 1.
+    starts : (n + 2,) int64
+        Overwritten: the entries of v stand from ``starts[v]`` up to ``starts[v + 1]``.
+    """
     starts[:] = 0
     for h in order:
-        starts[vertex[h] + 1] += 1
+        starts[vertex[h] + 2] += 1
     for v in range(1, len(starts)):
         starts[v] += starts[v - 1]
+    # Until all entries are in place, starts[v + 1] is where the next one of v goes.
     result = np.empty_like(order)
     for h in order:
-        result[starts[vertex[h]]] = h
-        starts[vertex[h]] += 1
+        result[starts[vertex[h] + 1]] = h
+        starts[vertex[h] + 1] += 1
     return result
 
 
@@ -77,9 +88,9 @@ def build(vertices, faces):
     """
     origin = faces.ravel().copy()
     low, high = edge_ends(faces)
-    starts = np.empty(len(vertices) + 1, np.int64)
+    starts = np.empty(len(vertices) + 2, np.int64)
     corner = np.arange(len(origin), dtype=np.int32)
-    order = _sort_by_vertex(_sort_by_vertex(corner, high, starts), low, starts)
+    order = sort_by_vertex(sort_by_vertex(corner, high, starts), low, starts)
     twin = _pair(origin, low, high, order)
     fans = np.zeros(len(vertices), np.int32)
     locked = np.zeros(len(origin), np.bool_)
@@ -95,12 +106,11 @@ def faces_of(mesh):
 
 def interior_vertices(mesh):
     """Return the mask (n,) of the vertices whose faces form one closed fan."""
-    inner = np.zeros(len(mesh.vertices), bool)
-    inner[mesh.origin] = True
-    at_rim = np.flatnonzero(mesh.twin == NONE)
-    inner[mesh.origin[at_rim]] = False
-    inner[mesh.origin[following_all(at_rim)]] = False
-    return inner & ~mesh.several_fans
+    interior = np.zeros(len(mesh.vertices), bool)
+    interior[mesh.origin] = True
+    # In a fan as many half-edges without twin start as end: to look at the starts is enough.
+    interior[mesh.origin[mesh.twin == NONE]] = False
+    return interior & ~mesh.several_fans
 
 
 def following_all(h):

@@ -147,7 +147,7 @@ def is_free(mesh, h):
     t = mesh.twin[h]
     if t == NONE or mesh.locked[h]:
         return False
-    # An inner vertex with three edges needs no test: there, k-l is an edge already.
+    # An interior vertex with three edges needs no test: there, k-l is an edge already.
     if mesh.twin[previous(h)] == NONE and mesh.twin[following(t)] == NONE:
         return False
     return mesh.twin[following(h)] != NONE or mesh.twin[previous(t)] != NONE

@@ -9,5 +9,19 @@ fixes the parameter is (see `meshlab_willmore.search.entries`).
 from numba import njit
 
 # Division by zero gives inf or nan, as in NumPy: kernels test for finite results where it matters.
-jit = njit(cache=True, error_model="numpy")
 generic = njit(error_model="numpy")
+_cached = njit(cache=True, error_model="numpy")
+
+
+def jit(function):
+    """Return `function` compiled, with a cache on disk where one can be written.
+
+    Numba looks for a writable folder when it decorates: ``NUMBA_CACHE_DIR``, ``__pycache__`` next
+    to the source, the user's own cache folder. Without any of them (a read-only installation and no
+    home) each process compiles for itself. A shared temporary folder would be no way out: a cache
+    is code, and others could put theirs there.
+    """
+    try:
+        return _cached(function)
+    except RuntimeError:
+        return generic(function)

@@ -27,9 +27,14 @@ def subtract(a, b):
 
 
 @jit
-def middle(a, b):
-    """Return the point halfway between `a` and `b`."""
-    return Point(0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.z + b.z))
+def from_middle(a, b, p):
+    """Return the vector to `p` from the point halfway between `a` and `b`.
+
+    That point itself is not formed: it would be rounded as coarsely as the coordinates are large,
+    the differences are not.
+    """
+    a_p, b_p = subtract(p, a), subtract(p, b)
+    return Point(0.5 * (a_p.x + b_p.x), 0.5 * (a_p.y + b_p.y), 0.5 * (a_p.z + b_p.z))
 
 
 @jit

@@ -9,6 +9,10 @@ import numpy as np
 MOST_FACES = (2**31 - 1) // 3
 MOST_VERTICES = 2**31 - 1
 REPAIR_NULL_FACES = "meshing_remove_null_faces"
+REPAIR_NOT_FINITE = (
+    "the PyMeshLab filters compute_selection_by_condition_per_vertex"
+    "(condselect='x-x!=0 || y-y!=0 || z-z!=0') and meshing_remove_selected_vertices()"
+)
 
 
 def check_mesh(vertices, faces):
@@ -49,7 +53,10 @@ def _check_vertices(vertices):
     finite = np.isfinite(converted).all(axis=1)
     if not finite.all():
         v = int(np.argmin(finite))
-        raise ValueError(f"vertex {v} has a coordinate that is not finite: {converted[v].tolist()}")
+        raise ValueError(
+            f"vertex {v} has a coordinate that is not finite: {converted[v].tolist()}; "
+            f"{REPAIR_NOT_FINITE} remove such vertices"
+        )
     return converted
 
 
@@ -63,8 +70,10 @@ def _check_rows(array, name, width):
 
 
 def _check_indices(indices, name, width):
-    """Check that an array has rows of `width` integers; the type of an empty list says nothing."""
-    if indices.dtype.kind not in "iu" and indices.shape != (0,):
+    """Check that an array has rows of `width` integers; the type of an empty array says nothing."""
+    if not indices.size:
+        indices = np.empty(indices.shape, np.int64)
+    if indices.dtype.kind not in "iu":
         raise TypeError(f"{name} must be integers, not {indices.dtype}")
     return _check_rows(indices, name, width)
 
@@ -97,6 +106,8 @@ def check_edges(edges):
 def check_mask(mask, count):
     """Return the boolean mask (count,) as an array, or raise TypeError or ValueError."""
     mask = np.asarray(mask)
+    if not mask.size:
+        mask = np.empty(mask.shape, np.bool_)
     if mask.dtype != np.bool_:
         raise TypeError(f"selected_faces must be a mask of bool, not {mask.dtype}")
     if mask.shape != (count,):

@@ -80,7 +80,8 @@ def test_coincident_neighbours_have_no_angle(same):
 
 def test_a_turn_has_a_length_that_products_bear():
     for quad in QUADS:
-        beta = turn(*points(quad * 1e-12))
+        a, b, p, q = 1e-12 * quad
+        beta = turn(*points([a - p, b - p, a - q, b - q]))
         assert math.sqrt(0.5) <= math.hypot(beta.r, beta.s) <= 1.0
         assert beta.s >= 0.0
 

@@ -23,6 +23,7 @@ MESHES = {
     "fin": meshes.fin()[:2],
 }
 ROUNDING = 2e-13
+EXTENDED = np.finfo(np.longdouble).eps < np.finfo(float).eps
 
 
 def flippable(mesh):
@@ -84,6 +85,39 @@ def test_coincident_points_are_never_worth_a_flip(energy):
     assert -math.inf in reductions
     assert all(r == -math.inf or math.isfinite(r) for r in reductions)
     assert math.isfinite(willmore.total(mesh))
+
+
+@pytest.mark.parametrize("energy", ENERGIES)
+@pytest.mark.parametrize("name", ["closed", "boundary"])
+def test_far_from_the_origin_no_digit_is_lost(name, energy):
+    """All differences of the shifted coordinates are exact, and nothing else may be looked at."""
+    vertices, faces = MESHES[name]
+    vertices = np.round(2.0**20 * vertices) / 2.0**20
+    here, there = build(vertices, faces), build(vertices + 2.0**24, faces)
+    cost_reduction, _ = ENERGIES[energy]
+    for h in flippable(here):
+        assert cost_reduction(there, h) == cost_reduction(here, h)
+
+
+@pytest.mark.skipif(not EXTENDED, reason="long double is no better than double here")
+@pytest.mark.parametrize("energy", ENERGIES)
+@pytest.mark.parametrize("distance", [1e-6, 1e-9, 1e-12])
+def test_close_vertices_cost_no_digits(distance, energy):
+    vertices, faces = meshes.bumpy_sphere(24)
+    vertices[faces[0, 0]] = vertices[faces[0, 1]] + distance
+    mesh = build(vertices, faces)
+    cost_reduction, brute_force = ENERGIES[energy]
+    exact = vertices.astype(np.longdouble)
+    near = {int(v) for v in faces[0, :2]}
+    edges = [h for h in flippable(mesh) if h < mesh.twin[h]]
+    edges = [h for h in edges if near & set(mesh.origin[[h, mesh.twin[h]]].tolist())]
+    assert len(edges) > 5
+    # What the reference itself loses where the circles pass through two vertices so close.
+    noise = 1e2 * float(np.finfo(np.longdouble).eps) / distance
+    for h in edges:
+        i, j = int(mesh.origin[h]), int(mesh.origin[mesh.twin[h]])
+        wanted = brute_force(exact, faces, i, j)
+        assert cost_reduction(mesh, h) == pytest.approx(wanted, abs=ROUNDING + noise)
 
 
 def test_virtual_reduction_of_a_planar_parallelogram_is_zero():

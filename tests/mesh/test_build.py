@@ -7,6 +7,7 @@ from meshlab_willmore.mesh.build import (
     build,
     faces_of,
     interior_vertices,
+    sort_by_vertex,
     validate_connectivity,
 )
 from meshlab_willmore.mesh.halfedge import NONE
@@ -32,9 +33,19 @@ def _mesh(request):
     return build(*MESHES[request.param])
 
 
+def test_sorting_by_vertex_is_stable_and_tells_where_each_vertex_starts():
+    vertex = np.random.default_rng(0).integers(0, 9, 60)
+    order = np.random.default_rng(1).permutation(60)
+    starts = np.full(11, 77)
+    found = sort_by_vertex(order, vertex, starts)
+    wanted = [[h for h in order if vertex[h] == v] for v in range(9)]
+    assert found.tolist() == [h for group in wanted for h in group]
+    assert [found[starts[v] : starts[v + 1]].tolist() for v in range(9)] == wanted
+
+
 def test_twins_are_those_of_the_reference(mesh):
-    inner = np.flatnonzero(np.arange(len(mesh.twin)) < mesh.twin)
-    pairs = np.sort(np.column_stack([mesh.origin[inner], mesh.origin[mesh.twin[inner]]]), axis=1)
+    edges = np.flatnonzero(np.arange(len(mesh.twin)) < mesh.twin)
+    pairs = np.sort(np.column_stack([mesh.origin[edges], mesh.origin[mesh.twin[edges]]]), axis=1)
     wanted = np.sort(reference.diamonds(faces_of(mesh))[:, :2], axis=1)
     assert sorted(pairs.tolist()) == sorted(wanted.tolist())
     validate_connectivity(mesh)

@@ -8,7 +8,7 @@ from meshlab_willmore.mesh.points import (
     angle_between,
     cross,
     dot,
-    middle,
+    from_middle,
     norm,
     normal,
     point,
@@ -23,11 +23,19 @@ def test_helpers_agree_with_numpy():
     a, b, c = ROWS
     assert tuple(point(ROWS, 1)) == tuple(b)
     assert tuple(subtract(A, B)) == tuple(a - b)
-    assert tuple(middle(A, B)) == tuple(0.5 * (a + b))
+    np.testing.assert_allclose(from_middle(A, B, C), c - 0.5 * (a + b), rtol=1e-14)
     assert dot(A, B) == pytest.approx(a @ b, rel=1e-15)
     assert norm(A) == pytest.approx(np.linalg.norm(a), rel=1e-15)
     np.testing.assert_allclose(cross(A, B), np.cross(a, b), rtol=1e-14)
     np.testing.assert_allclose(normal(A, B, C), np.cross(b - a, c - a), rtol=1e-14)
+
+
+def test_a_middle_far_from_the_origin_keeps_all_digits():
+    """Coordinates so far out that no float lies halfway between `a` and `b`."""
+    far = 2.0**52
+    a, b = Point(far, 0.0, -far), Point(far + 1.0, 0.0, -far - 1.0)
+    assert tuple(from_middle(a, b, a)) == (-0.5, 0.0, 0.5)
+    assert tuple(from_middle(a, b, b)) == (0.5, 0.0, -0.5)
 
 
 @pytest.mark.parametrize("degrees", [0.0, 1e-7, 30.0, 90.0, 179.9999999, 180.0])

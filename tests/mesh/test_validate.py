@@ -83,6 +83,8 @@ def test_too_many_vertices():
         (VERTICES[::-1], FACES[::2]),
         (VERTICES, []),
         (VERTICES, np.empty((0, 3), int)),
+        (VERTICES, np.empty((0, 3))),
+        (VERTICES, np.empty((0, 3), str)),
         ([], []),
     ],
 )
@@ -94,6 +96,18 @@ def test_what_numpy_can_read_becomes_float64_and_int32(vertices, faces):
     assert corners.flags.c_contiguous
     np.testing.assert_array_equal(checked, np.asarray(vertices).reshape(-1, 3))
     np.testing.assert_array_equal(corners, np.asarray(faces).reshape(-1, 3))
+
+
+def test_nothing_is_of_any_type():
+    for empty in ([], np.zeros((0, 2)), np.zeros((0, 2), object), np.zeros((0, 2), np.int8)):
+        edges = validate.check_edges(empty)
+        assert (edges.shape, edges.dtype) == ((0, 2), np.int64)
+    mask = validate.check_mask([], 0)
+    assert (mask.shape, mask.dtype) == ((0,), np.bool_)
+    with pytest.raises(ValueError, match=r"shape \(count, 2\), not \(0, 3\)"):
+        validate.check_edges(np.zeros((0, 3)))
+    with pytest.raises(ValueError, match=r"shape \(5,\), not \(0,\)"):
+        validate.check_mask([], 5)
 
 
 def test_faces_without_vertices():

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from meshlab_willmore import guards
 from meshlab_willmore.energy import virtual, willmore
@@ -42,6 +43,8 @@ MESHES = {
     "shuffled": shuffled(20, 1),
 }
 GUARDED, FREE = guards.fold_limits(90.0), guards.fold_limits(180.0)
+# More flips than any of these runs needs: a search that went round in circles would end too.
+MANY = 20_000
 
 
 def pair(a, b):
@@ -51,7 +54,7 @@ def pair(a, b):
 def flips_by_scanning(mesh, rules, cost_reduction):
     """Make all flips of the pseudocode on `mesh`; return their number and total gain."""
     gone, gains = set(), []
-    while True:
+    for _ in range(MANY):
         candidates = []
         for h in range(len(mesh.origin)):
             t = mesh.twin[h]
@@ -73,6 +76,7 @@ def flips_by_scanning(mesh, rules, cost_reduction):
         validate_connectivity(mesh)
         if rules.monotone:
             assert willmore.total(mesh) <= before + 1e-11
+    pytest.fail("the flips do not end")
 
 
 @pytest.mark.heavy
@@ -82,7 +86,7 @@ def flips_by_scanning(mesh, rules, cost_reduction):
 @pytest.mark.parametrize("energy", KERNELS)
 def test_the_queue_finds_what_a_scan_finds(energy, fold, monotone, name):
     kernel, cost_reduction = KERNELS[energy]
-    rules = greedy.Rules(fold, monotone)
+    rules = greedy.Rules(fold, monotone, MANY)
     scanned, searched = build(*MESHES[name]), build(*MESHES[name])
     flips, gain = flips_by_scanning(scanned, rules, cost_reduction)
     progress = greedy.run(kernel, searched, rules)
@@ -99,7 +103,7 @@ def test_an_edge_freed_by_a_flip_elsewhere_is_flipped_too(count, seed):
 
     In these meshes that edge is not among the 13 around the flip, and the gain is worth taking.
     """
-    rules = greedy.Rules(FREE)
+    rules = greedy.Rules(FREE, True, MANY)
     mesh = build(*shuffled(count, seed))
     greedy.run(entries.greedy_willmore, mesh, rules)
     gains = [willmore.cost_reduction(mesh, h) for h in flippable(mesh)]
@@ -109,7 +113,7 @@ def test_an_edge_freed_by_a_flip_elsewhere_is_flipped_too(count, seed):
 @pytest.mark.parametrize("energy", KERNELS)
 def test_maxflips_stops_on_the_way(energy):
     kernel, _ = KERNELS[energy]
-    everything = greedy.run(kernel, build(*MESHES["closed"]), greedy.Rules(GUARDED))
+    everything = greedy.run(kernel, build(*MESHES["closed"]), greedy.Rules(GUARDED, True, MANY))
     gains = []
     for limit in range(everything.flips + 2):
         progress = greedy.run(kernel, build(*MESHES["closed"]), greedy.Rules(GUARDED, True, limit))
@@ -126,9 +130,107 @@ def test_the_cycle_on_a_random_torus_ends(monotone):
     """Literal descent on the virtual energy goes round a 4-cycle for ever on this mesh."""
     vertices, faces = meshes.torus(200, None, 1)
     mesh = build(vertices, faces)
-    progress = greedy.run(entries.greedy_virtual, mesh, greedy.Rules(GUARDED, monotone))
+    progress = greedy.run(entries.greedy_virtual, mesh, greedy.Rules(GUARDED, monotone, MANY))
     validate_connectivity(mesh)
     assert progress.state == greedy.CONVERGED
+
+
+def test_ties_do_not_go_round_in_circles():
+    """A tie so large that every flip counts as one: what a tie flipped away stays away."""
+    mesh = build(*meshes.torus(200, None, 1))
+    progress = greedy.run(entries.greedy_virtual, mesh, greedy.Rules(FREE, True, MANY, tie=100.0))
+    assert progress.state == greedy.CONVERGED
+    assert progress.flips > 100
+
+
+def all_but(mesh, *free):
+    """Lock all edges but those of the half-edges `free`."""
+    mesh.locked[:] = True
+    for h in free:
+        mesh.locked[[h, mesh.twin[h]]] = False
+    return mesh
+
+
+def tuned(quantity, target):
+    """A mesh and a half-edge at which `quantity` has a given value, by moving the vertex k.
+
+    Both cost reductions change sign near there, or the virtual one is large.
+    """
+    vertices, faces = meshes.bumpy_sphere(24)
+    mesh = build(vertices, faces)
+    steps = np.linspace(0.7, 1.3, 13)
+    for h in flippable(mesh):
+        k = apex(mesh, h)
+        place = vertices[k].copy()
+
+        def excess(step, h=h, k=k, place=place):
+            vertices[k] = step * place
+            return quantity(mesh, h) - target
+
+        signs = np.sign([excess(step) for step in steps])
+        for s in np.flatnonzero(signs[1:] != signs[:-1]):
+            excess(brentq(excess, steps[s], steps[s + 1], xtol=1e-15, rtol=1e-15))
+            found = quantity(mesh, h)
+            worth = quantity is virtual.cost_reduction or virtual.cost_reduction(mesh, h) > 0.01
+            if worth and abs(found - target) < 5e-14:
+                return vertices, faces, h
+        vertices[k] = place
+    return pytest.fail("no mesh of this family has such an edge")
+
+
+@pytest.mark.parametrize(
+    ("drop", "options", "flips"),
+    [
+        (1e-8, {}, 1),
+        (-5e-13, {}, 1),
+        (-2e-12, {}, 0),
+        (-1e-8, {}, 0),
+        (-1e-8, {"tie": 1e-7}, 1),
+        (-1e-8, {"monotone": False}, 1),
+    ],
+)
+def test_the_monotone_rule_forgives_rounding_only(drop, options, flips):
+    vertices, faces, h = tuned(willmore.cost_reduction, drop)
+    rules = greedy.Rules(FREE, maxflips=MANY)._replace(**options)
+    mesh = all_but(build(vertices, faces), h)
+    assert greedy.run(entries.greedy_virtual, mesh, rules).flips == flips
+
+
+@pytest.mark.parametrize(("gain", "flips"), [(0.9e-7, 0), (1.1e-7, 1), (-1.1e-7, 0)])
+def test_a_flip_must_be_worth_more_than_the_tolerance(gain, flips):
+    vertices, faces, h = tuned(virtual.cost_reduction, gain)
+    mesh = all_but(build(vertices, faces), h)
+    rules = greedy.Rules(FREE, False, MANY)
+    assert greedy.run(entries.greedy_virtual, mesh, rules).flips == flips
+
+
+@pytest.mark.parametrize(("ahead", "first"), [(3e-10, 0), (5e-9, 1), (-5e-9, 0)])
+def test_gains_that_differ_by_rounding_only_go_by_number(ahead, first):
+    """Two components with one free edge each; the second has a gain larger by `ahead`."""
+    one, faces, h = tuned(virtual.cost_reduction, 0.1)
+    other, _, same = tuned(virtual.cost_reduction, 0.1 + ahead)
+    assert same == h
+    both = np.vstack([faces, faces + len(one)])
+    free = h, h + faces.size
+    mesh = all_but(build(np.vstack([one, other]), both), *free)
+    greedy.run(entries.greedy_virtual, mesh, greedy.Rules(FREE, False, maxflips=1))
+    changed = (faces_of(mesh) != both).any(axis=1).reshape(2, -1).any(axis=1)
+    assert changed.tolist() == [first == 0, first == 1]
+
+
+@pytest.mark.parametrize("place", [greedy.SLICE - 1, greedy.SLICE, greedy.SLICE + 1])
+def test_no_half_edge_is_left_out_where_a_slice_of_the_scoring_ends(place):
+    """The one free edge, with a gain, is put at the end or the start of a slice."""
+    vertices, faces, h = tuned(virtual.cost_reduction, 0.1)
+    far, filler = meshes.grid(90, 90)
+    face, corner = divmod(place, 3)
+    ahead = np.roll(faces, -(h // 3), axis=0)
+    ahead[0] = np.roll(ahead[0], corner - h % 3)
+    mesh = build(np.vstack([vertices, far]), np.vstack([filler[:face] + len(vertices), ahead]))
+    all_but(mesh, place)
+    assert place < mesh.twin[place]
+    rules = greedy.Rules(FREE, False, MANY)
+    assert greedy.run(entries.greedy_virtual, mesh, rules).flips == 1
 
 
 @pytest.mark.heavy

@@ -93,8 +93,9 @@ _FLIP_PARAMETERS = (
         bool,
         True,
         "Never raise the Willmore energy",
-        "Refuse flips that raise the Willmore energy itself. Without this rule the virtual "
-        "energy can make a surface worse; off is for research.",
+        "Refuse flips that raise the Willmore energy itself, the sum of the circles' angles over "
+        "all edges. Without this rule the virtual energy can make a surface worse; off is for "
+        "research.",
     ),
     Parameter(
         "foldangle",
@@ -109,7 +110,7 @@ _FLIP_PARAMETERS = (
         float,
         180.0,
         "Feature angle (deg)",
-        "Keep edges whose faces are bent by more than this angle (0 is flat); 180 keeps none. "
+        "Keep edges whose faces are bent by this angle or more (0 is flat); 180 keeps none. "
         "30 suits technical parts.",
     ),
     Parameter(
@@ -177,9 +178,9 @@ def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any]
 _FLIP_RETURNS = (
     ("flips", "int", "Number of flips."),
     ("gain", "float", "Sum of the energy reductions of the flips, in radians."),
-    ("willmore_before", "float", "Willmore energy before, in radians."),
-    ("willmore_after", "float", "Willmore energy after, in radians."),
-    ("converged", "bool", "Whether no flip is left that helps."),
+    ("willmore_before", "float", "Willmore energy before, over interior vertices, in radians."),
+    ("willmore_after", "float", "Willmore energy after, over interior vertices, in radians."),
+    ("converged", "bool", "Whether no allowed flip is left that helps."),
     ("seconds", "float", "Time spent."),
     ("mesh_id", "int", "Id of the current mesh, which can be new where the set has others."),
 )

@@ -74,19 +74,28 @@ def without_trace(ms: MeshSet) -> Iterator[None]:
 @contextmanager
 def _unrecorded(ms: MeshSet) -> Iterator[None]:
     with tempfile.TemporaryDirectory(prefix="meshlab_willmore_") as folder:
-        path = Path(folder) / "before.mlx"
-        ms.save_filter_script(str(path))
-        before = path.read_bytes()
+        path = Path(folder) / "script.mlx"
+        before = _script(ms, path)
+        # PyMeshLab does not tell when it can't write.
+        if not before.rstrip().endswith(_WHOLE_SCRIPT):
+            raise OSError(f"the filter script could not be written to {folder}; is the disk full?")
         try:
             yield
         finally:
-            after = Path(folder) / "after.mlx"
-            ms.save_filter_script(str(after))
-            if after.read_bytes() != before:
+            if _script(ms, path.with_name("after.mlx")) != before:
                 ms.clear_filter_script()
                 if b"<filter" in before:
                     with muted():
                         ms.load_filter_script(str(path))
+
+
+_WHOLE_SCRIPT = (b"</FilterScript>", b"<FilterScript/>")
+
+
+def _script(ms: MeshSet, path: Path) -> bytes:
+    """The filter script of `ms` as XML, which stays at `path`."""
+    ms.save_filter_script(str(path))
+    return path.read_bytes() if path.exists() else b""
 
 
 class Verbosity(NamedTuple):

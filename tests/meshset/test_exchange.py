@@ -97,29 +97,24 @@ def assert_same_state(left, right):
         np.testing.assert_array_equal(left[name], right[name], err_msg=name)
 
 
+def attributes_of(ms):
+    """The values of the custom attributes of `rich_set`, by their real names."""
+    mesh = ms.current_mesh()
+    readers = {
+        "": mesh.vertex_custom_scalar_attribute_array,
+        "P": mesh.vertex_custom_point_attribute_matrix,
+        "-f": mesh.face_custom_scalar_attribute_array,
+        ".F": mesh.face_custom_point_attribute_matrix,
+    }
+    return {name + s: read(name + s) for name in ATTRIBUTES for s, read in readers.items()}
+
+
 def test_everything_survives():
     ms = rich_set()
-    before = state(ms)
-    mesh = ms.current_mesh()
-    readers = {
-        "": mesh.vertex_custom_scalar_attribute_array,
-        "P": mesh.vertex_custom_point_attribute_matrix,
-        "-f": mesh.face_custom_scalar_attribute_array,
-        ".F": mesh.face_custom_point_attribute_matrix,
-    }
-    attributes = {(n, s): read(n + s) for n in ATTRIBUTES for s, read in readers.items()}
-    del mesh, readers
+    before, attributes = state(ms), attributes_of(ms)
     assert ms.apply_filter(FLIP)["flips"] > 0
     assert_same_state(state(ms), before)
-    mesh = ms.current_mesh()
-    readers = {
-        "": mesh.vertex_custom_scalar_attribute_array,
-        "P": mesh.vertex_custom_point_attribute_matrix,
-        "-f": mesh.face_custom_scalar_attribute_array,
-        ".F": mesh.face_custom_point_attribute_matrix,
-    }
-    for (name, suffix), values in attributes.items():
-        np.testing.assert_array_equal(readers[suffix](name + suffix), values, err_msg=name)
+    assert_same_state(attributes_of(ms), attributes)
 
 
 def test_carried_attributes_can_be_used_and_saved(tmp_path):
@@ -490,6 +485,20 @@ REAL = [
     "cube.obj",
     "rangemaps/face000.ply",
 ]
+
+
+def test_these_are_all_samples_with_faces():
+    """The others are projects, scripts, images, and a point cloud."""
+    found = {
+        str(path.relative_to(SAMPLES))
+        for path in SAMPLES.rglob("*")
+        if path.suffix in {".obj", ".ply", ".off", ".stl"}
+    }
+    assert found == set(REAL)
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(SAMPLES / "chameleon.pts"))
+    with pytest.raises(pymeshlab.PyMeshLabException, match="point cloud"):
+        ms.apply_filter(FLIP)
 
 
 @pytest.mark.heavy

@@ -1,5 +1,7 @@
 """What the filters do to meshes good and bad."""
 
+import re
+
 import numpy as np
 import pymeshlab
 import pytest
@@ -232,13 +234,18 @@ def test_an_empty_mesh_is_refused(name):
 
 @pytest.mark.parametrize("name", [FLIP, SCALAR, MEASURES])
 @pytest.mark.parametrize("value", [np.nan, np.inf])
-def test_coordinates_that_are_not_finite_are_named(name, value):
+def test_coordinates_that_are_not_finite_are_named_and_their_cure_works(name, value):
     vertices, faces = meshes.bumpy_sphere(30)
     vertices[17, 1] = value
     ms = set_of(vertices, faces)
-    with pytest.raises(pymeshlab.PyMeshLabException, match="vertex 17"):
+    with pytest.raises(pymeshlab.PyMeshLabException, match="vertex 17") as caught:
         ms.apply_filter(name)
     np.testing.assert_array_equal(ms.current_mesh().face_matrix(), faces)
+    condition = re.search("condselect='(.*)'", str(caught.value))[1]
+    ms.compute_selection_by_condition_per_vertex(condselect=condition)
+    ms.meshing_remove_selected_vertices()
+    assert ms.current_mesh().vertex_number() == 29
+    ms.apply_filter(name)
 
 
 @pytest.mark.parametrize("name", [FLIP, SCALAR, MEASURES])

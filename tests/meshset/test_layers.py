@@ -287,6 +287,17 @@ def test_an_empty_filter_script_stays_empty(bumpy):
     assert "<filter" not in script_of(bumpy)
 
 
+def test_a_filter_script_that_cannot_be_kept_is_an_error_beforehand(bumpy, monkeypatch):
+    bumpy.set_selection_none()
+    before, faces = script_of(bumpy), bumpy.current_mesh().face_matrix()
+    monkeypatch.setattr(pymeshlab.MeshSet, "save_filter_script", lambda self, path: None)
+    with pytest.raises(pymeshlab.PyMeshLabException, match="filter script could not be written"):
+        bumpy.apply_filter(FLIP)
+    monkeypatch.undo()
+    assert script_of(bumpy) == before
+    np.testing.assert_array_equal(bumpy.current_mesh().face_matrix(), faces)
+
+
 def test_nothing_is_printed(bumpy, capfd):
     bumpy.add_mesh(pymeshlab.Mesh(*meshes.tetrahedron()), set_as_current=False)
     bumpy.set_selection_none()

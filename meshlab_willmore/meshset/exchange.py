@@ -59,7 +59,10 @@ def give(ms: pymeshlab.MeshSet, snapshot: Snapshot, records: ply.PlyMesh) -> Non
             _load(trial, path, snapshot)
             _verify(trial.current_mesh(), snapshot, records)
             layers.replace_current(
-                ms, trial, lambda target: _load(target, path, snapshot), snapshot.identity
+                ms,
+                lambda target: _load(target, path, snapshot),
+                lambda target: _reload(target, path, snapshot),
+                snapshot.identity,
             )
 
 
@@ -132,7 +135,7 @@ def _save_image(image: pymeshlab.Image, path: Path) -> None:
 
 def _load(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
     """Load the mesh of `_write_files` as a new current mesh, as a native filter leaves one."""
-    ms.load_new_mesh(str(path))
+    native.load(ms, path)
     textures = snapshot.ply.textures
     if is_set_by_filter(textures) and textures[0] in snapshot.images:
         image = path.with_name(textures[0])
@@ -143,6 +146,13 @@ def _load(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
     for attribute in snapshot.attributes:
         _, adder = ATTRIBUTE_METHODS[attribute.kind]
         getattr(mesh, adder)(attribute.values, attribute.name)
+
+
+def _reload(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
+    """Load the mesh as it was."""
+    path.unlink()
+    _write_files(path, snapshot, snapshot.ply)
+    _load(ms, path, snapshot)
 
 
 def _verify(mesh: pymeshlab.Mesh, snapshot: Snapshot, records: ply.PlyMesh) -> None:

@@ -13,7 +13,7 @@ import gc
 import weakref
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pymeshlab
@@ -24,7 +24,8 @@ from . import interrupts, native
 # A set that has seen more layers than this gives the new mesh a new id.
 _MOST_IDS_TO_REBUILD = 1000
 
-_parked: native.PerSet[frozenset[int]] = native.PerSet(frozenset())
+# By set: the id of each parked layer, and whether it was visible before.
+_parked: native.PerSet[dict[int, bool]] = native.PerSet({})
 
 
 class Identity(NamedTuple):
@@ -48,7 +49,7 @@ def _can_refill(ms: MeshSet) -> bool:
 
 
 def replace_current(
-    ms: MeshSet, trial: MeshSet, load: Callable[[MeshSet], None], who: Identity
+    ms: MeshSet, load: Callable[[MeshSet], None], reload: Callable[[MeshSet], None], who: Identity
 ) -> None:
     """Let `load` bring a new layer into `ms`, and let it take the place of the current one.
 
@@ -56,11 +57,12 @@ def replace_current(
     ----------
     ms : pymeshlab.MeshSet
         Changed in place: afterwards the new layer is current and carries the identity `who`.
-        Where the old layer was the only one and nobody held it, the new one has its id.
-    trial : pymeshlab.MeshSet
-        Its current mesh is what `load` brings; the way back if `load` fails half-way.
+        Where the old layer was the only one and nobody held it, the new one has its id. If `load`
+        fails, the set is as it was.
     load : callable
         Called with `ms`; must add one layer and make it current.
+    reload : callable
+        Brings the old layer back in the same way, if `load` fails.
     who : Identity
         Label, visibility and transform of the new layer.
     """
@@ -68,50 +70,63 @@ def replace_current(
     refill = _can_refill(ms)
     with interrupts.deferred(), native.without_trace(ms):
         if refill:
-            _refill(ms, old_id, trial, load)
+            try:
+                _refill(ms, old_id, load)
+            except BaseException:
+                _refill(ms, old_id, reload)
+                _identify(ms, who)
+                raise
         else:
-            load(ms)
+            _add(ms, load)
             _retire(ms, old_id)
         _identify(ms, who)
 
 
-def _refill(ms: MeshSet, wanted_id: int, trial: MeshSet, load: Callable[[MeshSet], None]) -> None:
+def _refill(ms: MeshSet, wanted_id: int, load: Callable[[MeshSet], None]) -> None:
     """Empty the set and load: ids start again at 0, so stand-ins use up those below."""
     native.clear(ms)
     stand_in = pymeshlab.Mesh(np.zeros((1, 3)))
-    for _ in range(wanted_id):
-        ms.add_mesh(stand_in)
-        ms.set_current_mesh_visibility(False)
+    for mesh_id in range(wanted_id):
+        native.add(ms, stand_in)
+        native.show(ms, mesh_id, False)
+    load(ms)
+    if wanted_id:
+        native.apply(ms, "delete_non_visible_meshes")
+        native.make_current(ms, wanted_id)
+
+
+def _add(ms: MeshSet, load: Callable[[MeshSet], None]) -> None:
+    """Load beside what is there, or leave all as it is."""
+    current, before = ms.current_mesh_id(), native.ids(ms)
     try:
         load(ms)
     except BaseException:
-        ms.add_mesh(trial.current_mesh())
+        for mesh_id in set(native.ids(ms)) - set(before):
+            native.make_current(ms, mesh_id)
+            native.apply(ms, "delete_current_mesh")
+        native.make_current(ms, current)
         raise
-    finally:
-        if wanted_id:
-            native.apply(ms, "delete_non_visible_meshes")
-            ms.set_current_mesh(wanted_id)
 
 
 def _retire(ms: MeshSet, old_id: int) -> None:
     """Delete the old layer, or park it as long as somebody holds it."""
     if _is_held(ms, old_id):
-        ms.set_mesh_visibility(old_id, False)
-        _parked.put(ms, parked(ms) | {old_id})
+        _parked.put(ms, {**_parked.get(ms), old_id: ms.mesh(old_id).is_visible()})
+        native.show(ms, old_id, False)
     else:
         _delete(ms, old_id)
 
 
 def _delete(ms: MeshSet, mesh_id: int) -> None:
     current = ms.current_mesh_id()
-    ms.set_current_mesh(mesh_id)
+    native.make_current(ms, mesh_id)
     native.apply(ms, "delete_current_mesh")
-    ms.set_current_mesh(current)
+    native.make_current(ms, current)
 
 
 def _identify(ms: MeshSet, who: Identity) -> None:
     ms.current_mesh().set_label(who.label)
-    ms.set_current_mesh_visibility(who.visible)
+    native.show(ms, ms.current_mesh_id(), who.visible)
     if not np.array_equal(who.transform, np.eye(4)):
         native.apply(ms, "set_matrix", transformmatrix=who.transform, compose=False, freeze=False)
 
@@ -121,13 +136,21 @@ def _identify(ms: MeshSet, who: Identity) -> None:
 
 def parked(ms: MeshSet) -> frozenset[int]:
     """Ids of the layers that are there only because somebody holds their `Mesh`."""
-    return _parked.get(ms)
+    return frozenset(i for i in _parked.get(ms) if ms.mesh_id_exists(i))
 
 
 def forget_parked(ms: MeshSet) -> None:
     """Forget all parked layers, of a set that was emptied."""
-    if parked(ms):
-        _parked.put(ms, frozenset())
+    if _parked.get(ms):
+        _parked.put(ms, {})
+
+
+def give_back(ms: MeshSet, mesh_id: int) -> None:
+    """Make a parked layer one like others, because the user asks for it."""
+    if mesh_id in parked(ms):
+        layers = dict(_parked.get(ms))
+        native.show(ms, mesh_id, layers.pop(mesh_id))
+        _parked.put(ms, layers)
 
 
 def visible_ids(ms: MeshSet) -> list[int]:
@@ -137,44 +160,92 @@ def visible_ids(ms: MeshSet) -> list[int]:
 
 
 def sweep(ms: MeshSet) -> None:
-    """Delete the parked layers of `ms` that nobody holds any more.
-
-    A layer that was made visible or current belongs to the user again.
-    """
-    waiting = parked(ms)
-    if not waiting:
+    """Delete the parked layers of `ms` that nobody holds any more."""
+    if not _parked.get(ms):
         return
-    there = {i for i in waiting if ms.mesh_id_exists(i)}
-    current = ms.current_mesh_id() if len(native.ids(ms)) else None
-    taken_back = {i for i in there if ms.mesh(i).is_visible()}
-    free = {i for i in there - taken_back if i != current and not _has_wrapper(ms, i)}
-    _parked.put(ms, frozenset(there - taken_back - free))
+    free = {i for i in parked(ms) if i != ms.current_mesh_id() and not _has_wrapper(ms, i)}
+    stay = parked(ms) - free
+    _parked.put(ms, {i: shown for i, shown in _parked.get(ms).items() if i in stay})
     if free:
         with interrupts.deferred(), native.without_trace(ms):
             for mesh_id in sorted(free):
                 _delete(ms, mesh_id)
 
 
+# --- native filters beside parked layers -------------------------------------------------------
+
+_DELETE_HIDDEN = "delete_non_visible_meshes"
+_MERGE = "generate_by_merging_visible_meshes"
+# MeshLab's names, in scripts, of filters that delete hidden layers or may merge them.
+_SCRIPTED = ("Delete all non visible Mesh Layers", "Flatten Visible Layers")
+
+
 @contextmanager
-def parked_aside(ms: MeshSet, filter_name: object) -> Iterator[None]:
-    """Keep a native filter that deletes layers away from the parked ones."""
+def parked_aside(ms: MeshSet, name: object, given: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """Keep a native filter away from the parked layers; gives the keywords to call it with.
+
+    Raises
+    ------
+    pymeshlab.PyMeshLabException
+        If the filter would merge parked layers.
+    """
     hidden = parked(ms)
     if not hidden:
-        yield
+        yield given
         return
-    was_parked = ms.current_mesh_id() in hidden
-    spare = filter_name == "delete_non_visible_meshes"
-    for mesh_id in hidden if spare else ():
-        ms.set_mesh_visibility(mesh_id, True)
+    if name == _MERGE and not given.get("mergevisible", True):
+        raise _still_held(ms, f"{name} with mergevisible=False")
+    was_current = ms.current_mesh_id() in hidden
+    for mesh_id in hidden if name == _DELETE_HIDDEN else ():
+        native.show(ms, mesh_id, True)
     try:
-        yield
+        yield {**partners_beside_parked(ms, name, given), **given}
     finally:
-        for mesh_id in hidden if spare else ():
-            ms.set_mesh_visibility(mesh_id, False)
+        for mesh_id in hidden if name == _DELETE_HIDDEN else ():
+            native.show(ms, mesh_id, False)
         # A deleted layer hands over to its neighbour, which should not be a parked one.
         others = visible_ids(ms)
-        if others and not was_parked and ms.current_mesh_id() in hidden:
-            ms.set_current_mesh(others[0])
+        if others and not was_current and ms.current_mesh_id() in hidden:
+            native.make_current(ms, others[0])
+
+
+def partners_beside_parked(ms: MeshSet, name: object, given: dict[str, Any]) -> dict[str, int]:
+    """The layers that a native filter should take instead of parked ones, by keyword.
+
+    Without a word from the caller, filters of two meshes take the first layer of the set.
+    """
+    hidden = parked(ms)
+    if not hidden or name not in pymeshlab.filter_list():
+        return {}
+    with native.muted():
+        defaults = native.defaults(ms, str(name))
+    seen = visible_ids(ms)
+    other = next((i for i in seen if i != ms.current_mesh_id()), ms.current_mesh_id())
+    return {
+        keyword: other
+        for keyword, value in defaults.items()
+        if keyword.endswith("mesh") and keyword not in given and value in hidden
+    }
+
+
+def check_script(ms: MeshSet) -> None:
+    """Raise if the filter script of `ms` has steps that would reach its parked layers."""
+    if parked(ms):
+        script = native.script_of(ms)
+        for step in _SCRIPTED:
+            if f'name="{step}"' in script:
+                raise _still_held(ms, f"the step {step!r} of the filter script")
+
+
+def _still_held(ms: MeshSet, what: str) -> pymeshlab.PyMeshLabException:
+    labels = ", ".join(repr(ms.mesh(i).label()) for i in sorted(parked(ms)))
+    return pymeshlab.PyMeshLabException(
+        f"{what} would reach a mesh as it was before its flips ({labels}), which is there only "
+        "because a Mesh object of it is held. Let go of the object first (del)."
+    )
+
+
+# --- held meshes -------------------------------------------------------------------------------
 
 
 def _is_held(ms: MeshSet, mesh_id: int) -> bool:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+import inspect
 import os
 import sys
 import tempfile
@@ -21,12 +22,17 @@ import numpy as np
 import pymeshlab
 from pymeshlab import MeshSet
 
-# As they are before `register` replaces them.
-_apply_filter = MeshSet.apply_filter
-_clear = MeshSet.clear
-_iterate = MeshSet.__iter__
-_set_parameter_verbosity = MeshSet.set_parameter_verbosity
-_set_verbosity = MeshSet.set_verbosity
+# PyMeshLab's own, not what `register` (of a module that was imported before) replaced them with.
+_add_mesh = inspect.unwrap(MeshSet.add_mesh)
+_apply_filter = inspect.unwrap(MeshSet.apply_filter)
+_clear = inspect.unwrap(MeshSet.clear)
+_filter_parameter_values = inspect.unwrap(MeshSet.filter_parameter_values)
+_iterate = inspect.unwrap(MeshSet.__iter__)
+_load_new_mesh = inspect.unwrap(MeshSet.load_new_mesh)
+_set_current_mesh = inspect.unwrap(MeshSet.set_current_mesh)
+_set_mesh_visibility = inspect.unwrap(MeshSet.set_mesh_visibility)
+_set_parameter_verbosity = inspect.unwrap(MeshSet.set_parameter_verbosity)
+_set_verbosity = inspect.unwrap(MeshSet.set_verbosity)
 
 Value = TypeVar("Value")
 
@@ -54,9 +60,34 @@ def apply(ms: MeshSet, name: str, **given: Any) -> dict[str, Any]:
     return _apply_filter(ms, name, **given)
 
 
+def defaults(ms: MeshSet, name: str) -> dict[str, Any]:
+    """The default parameters of a native filter."""
+    return _filter_parameter_values(ms, name)
+
+
 def clear(ms: MeshSet) -> None:
     """Empty the set; ids start again at 0."""
     _clear(ms)
+
+
+def load(ms: MeshSet, path: Path) -> None:
+    """Load a mesh as a new layer, which becomes the current one."""
+    _load_new_mesh(ms, str(path))
+
+
+def add(ms: MeshSet, mesh: pymeshlab.Mesh, label: str = "") -> None:
+    """Add a copy of `mesh` as a new layer, which becomes the current one."""
+    _add_mesh(ms, mesh, label)
+
+
+def make_current(ms: MeshSet, mesh_id: int) -> None:
+    """Make a layer the current one."""
+    _set_current_mesh(ms, mesh_id)
+
+
+def show(ms: MeshSet, mesh_id: int, visible: bool) -> None:
+    """Make a layer visible or not."""
+    _set_mesh_visibility(ms, mesh_id, visible)
 
 
 def ids(ms: MeshSet) -> list[int]:
@@ -69,6 +100,12 @@ def without_trace(ms: MeshSet) -> Iterator[None]:
     """Native filters inside print nothing and don't stay in the filter script of `ms`."""
     with _quiet(ms), _unrecorded(ms):
         yield
+
+
+def script_of(ms: MeshSet) -> str:
+    """The filter script of `ms` as XML."""
+    with tempfile.TemporaryDirectory(prefix="meshlab_willmore_") as folder:
+        return _script(ms, Path(folder) / "script.mlx").decode("utf-8")
 
 
 @contextmanager

@@ -130,8 +130,8 @@ def _wrap_apply_filter(wrapped: Callable) -> Callable:
         filter_ = _ours(args, "filter_name", kwargs)
         if filter_ is None:
             name = args[0] if args else kwargs.get("filter_name")
-            with layers.parked_aside(self, name):
-                return wrapped(self, *args, **kwargs)
+            with layers.parked_aside(self, name, kwargs) as given:
+                return wrapped(self, *args, **given)
         with _turn:
             return _apply(self, filter_, kwargs)
 
@@ -142,7 +142,8 @@ def _wrap_filter_parameter_values(wrapped: Callable) -> Callable:
     def filter_parameter_values(self: MeshSet, *args: Any, **kwargs: Any) -> dict[str, Any]:
         filter_ = _ours(args, "arg0", kwargs)
         if filter_ is None:
-            return wrapped(self, *args, **kwargs)
+            partners = layers.partners_beside_parked(self, args[0] if args else None, kwargs)
+            return wrapped(self, *args, **{**partners, **kwargs})
         return _values(self, filter_, kwargs)
 
     return filter_parameter_values
@@ -188,7 +189,7 @@ def _wrap_iter(_: Callable) -> Callable:
 
 def _wrap_count(wrapped: Callable) -> Callable:
     def count(self: MeshSet) -> int:
-        return len(layers.visible_ids(self)) if layers.parked(self) else wrapped(self)
+        return wrapped(self) - len(layers.parked(self))
 
     return count
 
@@ -199,6 +200,31 @@ def _wrap_clear(wrapped: Callable) -> Callable:
         layers.forget_parked(self)
 
     return clear
+
+
+def _wrap_set_current_mesh(wrapped: Callable) -> Callable:
+    def set_current_mesh(self: MeshSet, new_curr_id: int) -> None:
+        wrapped(self, new_curr_id)
+        layers.give_back(self, new_curr_id)
+
+    return set_current_mesh
+
+
+def _wrap_set_mesh_visibility(wrapped: Callable) -> Callable:
+    def set_mesh_visibility(self: MeshSet, id: int, visibility: bool) -> None:
+        layers.give_back(self, id)
+        wrapped(self, id, visibility)
+
+    return set_mesh_visibility
+
+
+def _wrap_apply_filter_script(wrapped: Callable) -> Callable:
+    def apply_filter_script(self: MeshSet) -> None:
+        layers.sweep(self)
+        layers.check_script(self)
+        wrapped(self)
+
+    return apply_filter_script
 
 
 # --- lists -------------------------------------------------------------------------------------
@@ -254,9 +280,13 @@ _METHODS: dict[str, Callable[[Callable], Callable]] = {
     "__iter__": _wrap_iter,
     "__len__": _wrap_count,
     "apply_filter": _wrap_apply_filter,
+    "apply_filter_script": _wrap_apply_filter_script,
     "clear": _wrap_clear,
     "filter_parameter_values": _wrap_filter_parameter_values,
     "mesh_number": _wrap_count,
+    "number_meshes": _wrap_count,
+    "set_current_mesh": _wrap_set_current_mesh,
+    "set_mesh_visibility": _wrap_set_mesh_visibility,
     "set_parameter_verbosity": _wrap_set_verbosity("parameters"),
     "set_verbosity": _wrap_set_verbosity("all"),
 }

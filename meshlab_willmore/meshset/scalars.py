@@ -11,7 +11,7 @@ import numpy as np
 import pymeshlab
 from pymeshlab import MeshSet
 
-from . import native
+from . import interrupts, native
 
 # muParser, which evaluates MeshLab's functions, takes 20000 characters; a value with its test
 # and brackets takes at most 40.
@@ -30,7 +30,7 @@ def write_vertex_scalar(ms: MeshSet, scalar: np.ndarray) -> None:
         If coordinates are too large for PyMeshLab's filters.
     """
     _check_size(ms.current_mesh().vertex_matrix())
-    with native.without_trace(ms):
+    with interrupts.deferred(), native.without_trace(ms):
         _transfer(ms, scalar)
         _correct(ms, scalar)
 
@@ -54,14 +54,16 @@ def _transfer(ms: MeshSet, scalar: np.ndarray) -> None:
     target = ms.current_mesh_id()
     transform = ms.current_mesh().transform_matrix()
     vertices = ms.current_mesh().vertex_matrix()
-    native.apply(ms, "set_matrix_identity")
-    ms.add_mesh(pymeshlab.Mesh(vertices, v_scalar_array=scalar), "Willmore energy")
-    helper = ms.current_mesh_id()
+    helper = pymeshlab.Mesh(vertices, v_scalar_array=scalar)
+    native.add(ms, helper, "Willmore energy")
+    source = ms.current_mesh_id()
+    native.make_current(ms, target)
     try:
+        native.apply(ms, "set_matrix_identity")
         native.apply(
             ms,
             "transfer_attributes_per_vertex",
-            sourcemesh=helper,
+            sourcemesh=source,
             targetmesh=target,
             vertexsampling=True,
             colortransfer=False,
@@ -70,10 +72,10 @@ def _transfer(ms: MeshSet, scalar: np.ndarray) -> None:
             onselected=False,
         )
     finally:
-        ms.set_current_mesh(helper)
-        native.apply(ms, "delete_current_mesh")
-        ms.set_current_mesh(target)
         native.apply(ms, "set_matrix", transformmatrix=transform, compose=False, freeze=False)
+        native.make_current(ms, source)
+        native.apply(ms, "delete_current_mesh")
+        native.make_current(ms, target)
 
 
 def _correct(ms: MeshSet, scalar: np.ndarray) -> None:

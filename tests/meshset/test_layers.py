@@ -15,7 +15,7 @@ import numpy as np
 import pymeshlab
 import pytest
 
-from meshlab_willmore.meshset import interrupts, layers, native
+from meshlab_willmore.meshset import exchange, interrupts, layers, native
 from tests import meshes
 from tests.meshset.conftest import FLIP, SAMPLES, random_transform, set_of
 
@@ -80,18 +80,36 @@ def test_a_parked_layer_goes_when_it_is_free(bumpy):
     assert bumpy.current_mesh_id() == 1
 
 
-def test_sweeping_leaves_the_current_mesh_and_the_script_alone(bumpy):
+def test_sweeping_leaves_the_script_alone(bumpy):
+    bumpy.set_selection_none()
     held = bumpy.current_mesh()
     bumpy.apply_filter(FLIP)
-    bumpy.set_current_mesh(held.id())
-    del held
     before = script_of(bumpy)
-    layers.sweep(bumpy)
-    assert native.ids(bumpy) == [0, 1], "the current mesh must not be swept away"
-    bumpy.set_current_mesh(1)
+    del held
     layers.sweep(bumpy)
     assert native.ids(bumpy) == [1]
     assert script_of(bumpy) == before
+
+
+def take_by_making_it_current(ms):
+    ms.set_current_mesh(0)
+    ms.set_current_mesh(1)
+
+
+def take_by_showing_it(ms):
+    ms.set_mesh_visibility(0, True)
+
+
+@pytest.mark.parametrize("take", [take_by_making_it_current, take_by_showing_it])
+def test_a_layer_that_the_user_takes_back_is_one_like_others(bumpy, take):
+    held = bumpy.current_mesh()
+    bumpy.apply_filter(FLIP)
+    take(bumpy)
+    assert held.is_visible()
+    del held
+    bumpy.meshing_remove_duplicate_vertices()
+    assert native.ids(bumpy) == [0, 1]
+    assert len(bumpy) == 2
 
 
 def test_a_parked_layer_that_the_user_deleted_is_forgotten(bumpy):
@@ -102,16 +120,6 @@ def test_a_parked_layer_that_the_user_deleted_is_forgotten(bumpy):
     bumpy.delete_current_mesh()
     bumpy.meshing_remove_duplicate_vertices()
     assert len(bumpy) == 1
-
-
-def test_a_layer_that_the_user_takes_back_is_not_swept(bumpy):
-    held = bumpy.current_mesh()
-    bumpy.apply_filter(FLIP)
-    bumpy.set_mesh_visibility(0, True)
-    del held
-    bumpy.meshing_remove_duplicate_vertices()
-    assert native.ids(bumpy) == [0, 1]
-    assert len(bumpy) == 2
 
 
 def test_clear_forgets_parked_layers_with_all_others(bumpy):
@@ -137,6 +145,54 @@ def test_deleting_hidden_layers_spares_parked_ones(bumpy):
     np.testing.assert_array_equal(held.face_matrix(), faces)
     assert not bumpy.mesh_id_exists(2)
     assert not held.is_visible()
+
+
+def two_layers():
+    ms = set_of(*meshes.bumpy_sphere(100))
+    ms.add_mesh(pymeshlab.Mesh(*meshes.bumpy_sphere(80, 9)), set_as_current=False)
+    return ms
+
+
+def test_native_filters_take_no_parked_layer_for_a_partner():
+    free, holding = two_layers(), two_layers()
+    held = holding.current_mesh()
+    for ms in (free, holding):
+        ms.apply_filter(FLIP)
+    name = "get_hausdorff_distance"
+    assert holding.filter_parameter_values(name) == free.filter_parameter_values(name)
+    assert holding.apply_filter(name) == free.apply_filter(name)
+    mine = holding.filter_parameter_values(name, targetmesh=held.id())
+    assert mine["targetmesh"] == held.id(), "the caller may name it"
+
+
+def test_parked_layers_are_not_merged():
+    ms = two_layers()
+    held = ms.current_mesh()
+    faces = held.face_matrix()
+    ms.apply_filter(FLIP)
+    with pytest.raises(pymeshlab.PyMeshLabException, match="'mesh'.*is held"):
+        ms.generate_by_merging_visible_meshes(mergevisible=False)
+    ms.generate_by_merging_visible_meshes()
+    assert ms.current_mesh().face_number() == 196 + 156
+    many_meshes(ms, 30)
+    np.testing.assert_array_equal(held.face_matrix(), faces)
+
+
+def test_scripts_do_not_delete_parked_layers(bumpy):
+    other = set_of(*meshes.tetrahedron())
+    other.delete_non_visible_meshes()
+    with tempfile.TemporaryDirectory() as folder:
+        other.save_filter_script(f"{folder}/delete.mlx")
+        bumpy.load_filter_script(f"{folder}/delete.mlx")
+    held = bumpy.current_mesh()
+    faces = held.face_matrix()
+    bumpy.apply_filter(FLIP)
+    with pytest.raises(pymeshlab.PyMeshLabException, match="is held"):
+        bumpy.apply_filter_script()
+    np.testing.assert_array_equal(held.face_matrix(), faces)
+    del held
+    bumpy.apply_filter_script()
+    assert len(bumpy) == 1
 
 
 def test_a_deleted_layer_does_not_hand_over_to_a_parked_one(bumpy):
@@ -348,9 +404,8 @@ def test_an_interrupt_waits_until_the_set_is_whole(bumpy):
         order.append("loaded")
 
     who = layers.identity(bumpy.current_mesh())
-    trial = set_of(*meshes.octahedron())
     with pytest.raises(KeyboardInterrupt):
-        layers.replace_current(bumpy, trial, load, who)
+        layers.replace_current(bumpy, load, load, who)
     assert order == ["loaded"]
     assert bumpy.current_mesh().face_number() == 8
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
@@ -392,14 +447,72 @@ def test_a_thread_that_is_not_the_main_one_can_flip(bumpy):
     assert results[0]["flips"] > 0
 
 
-def test_a_failing_load_leaves_a_mesh(bumpy):
-    def load(_):
-        raise RuntimeError("no more disk")
+@pytest.mark.parametrize("company", [False, True])
+@pytest.mark.parametrize("held", [False, True])
+def test_a_load_that_fails_half_way_changes_nothing(company, held, monkeypatch):
+    ms = set_of(*meshes.bumpy_sphere(100))
+    if company:
+        ms.add_mesh(pymeshlab.Mesh(*meshes.tetrahedron()), set_as_current=False)
+    ms.set_matrix(transformmatrix=random_transform(), freeze=False)
+    ms.set_current_mesh_visibility(False)
+    ms.current_mesh().add_vertex_custom_scalar_attribute(np.arange(100.0), "w")
+    before = ids_and_faces(ms)
+    keep = ms.current_mesh() if held else None
+    carry, calls = exchange._load, []
 
-    trial = set_of(*meshes.octahedron())
-    with pytest.raises(RuntimeError, match="no more disk"):
-        layers.replace_current(bumpy, trial, load, layers.identity(bumpy.current_mesh()))
-    assert bumpy.current_mesh().face_number() == 8
+    def fail_the_second_time(*args):
+        carry(*args)
+        calls.append(args)
+        if len(calls) == 2:
+            raise MemoryError("no more of it")
+
+    monkeypatch.setattr(exchange, "_load", fail_the_second_time)
+    with pytest.raises(pymeshlab.PyMeshLabException, match="no more of it"):
+        ms.apply_filter(FLIP)
+    del keep
+    assert ids_and_faces(ms) == before
+    assert ms.current_mesh().label() == "mesh"
+    assert not ms.current_mesh().is_visible()
+    np.testing.assert_array_equal(ms.current_mesh().transform_matrix(), random_transform())
+    values = ms.current_mesh().vertex_custom_scalar_attribute_array("w")
+    np.testing.assert_array_equal(values, np.arange(100.0))
+
+
+def ids_and_faces(ms):
+    return ms.current_mesh_id(), [(m.id(), m.face_matrix().tolist()) for m in ms]
+
+
+def test_an_interrupted_scalar_filter_keeps_the_transform(bumpy, monkeypatch):
+    bumpy.set_matrix(transformmatrix=random_transform(), freeze=False)
+    apply = native._apply_filter
+
+    def interrupted(ms, name, **given):
+        if name == "set_matrix_identity":
+            signal.raise_signal(signal.SIGINT)
+        return apply(ms, name, **given)
+
+    monkeypatch.setattr(native, "_apply_filter", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        bumpy.compute_scalar_by_willmore_energy_per_vertex()
+    np.testing.assert_array_equal(bumpy.current_mesh().transform_matrix(), random_transform())
+    assert native.ids(bumpy) == [0]
+
+
+def test_overridden_methods_do_not_come_between():
+    class Odd(pymeshlab.MeshSet):
+        def load_new_mesh(self, path):
+            super().load_new_mesh(path)
+            self.compute_matrix_from_translation(axisx=100.0, freeze=True)
+
+        def add_mesh(self, mesh, *, label):
+            super().add_mesh(mesh, label)
+
+    ms = Odd()
+    vertices, faces = meshes.bumpy_sphere(100)
+    ms.add_mesh(pymeshlab.Mesh(vertices, faces), label="mesh")
+    assert ms.apply_filter(FLIP)["flips"] > 0
+    ms.compute_scalar_by_willmore_energy_per_vertex()
+    np.testing.assert_array_equal(ms.current_mesh().vertex_matrix(), vertices)
 
 
 INTERRUPTED = """

@@ -59,8 +59,8 @@ def _current_surface(ms: pymeshlab.MeshSet) -> pymeshlab.Mesh:
 # --- flips -------------------------------------------------------------------------------------
 
 
-def _has_selected_faces(mesh: pymeshlab.Mesh | None) -> bool:
-    return mesh is not None and mesh.selected_face_number() > 0
+def _has_selected_faces(ms: pymeshlab.MeshSet | None) -> bool:
+    return ms is not None and ms.current_mesh().selected_face_number() > 0
 
 
 _FLIP_PARAMETERS = (

@@ -23,7 +23,8 @@ class Parameter(NamedTuple):
     type : type
         bool, int, float, or str for an enum.
     default : object or callable
-        The default; a callable gets the current mesh, or None where there is no mesh to ask.
+        The default; a callable gets the set, or None where there is no mesh to ask. (Not the mesh:
+        an exception on the way would keep it held.)
     label, tooltip : str
         What MeshLab would write beside and over the field.
     choices : tuple of str
@@ -37,9 +38,9 @@ class Parameter(NamedTuple):
     tooltip: str
     choices: tuple[str, ...] = ()
 
-    def default_for(self, mesh: pymeshlab.Mesh | None) -> Any:
-        """The default value for `mesh`; an enum's index."""
-        value = self.default(mesh) if callable(self.default) else self.default
+    def default_for(self, ms: pymeshlab.MeshSet | None) -> Any:
+        """The default value for the current mesh of `ms`; an enum's index."""
+        value = self.default(ms) if callable(self.default) else self.default
         return self.choices.index(value) if self.choices else value
 
     def shown_default(self) -> str:
@@ -122,16 +123,16 @@ def read_all(
     filter_name: str,
     parameters: Iterable[Parameter],
     given: Mapping[str, Any],
-    mesh: pymeshlab.Mesh | None,
+    ms: pymeshlab.MeshSet | None,
 ) -> dict[str, Any]:
-    """All values of a call: the given ones, and the defaults for `mesh`.
+    """All values of a call: the given ones, and the defaults for the current mesh of `ms`.
 
     Raises
     ------
     pymeshlab.PyMeshLabException
         For a keyword that is no parameter, with PyMeshLab's own words.
     """
-    values = {parameter.name: parameter.default_for(mesh) for parameter in parameters}
+    values = {parameter.name: parameter.default_for(ms) for parameter in parameters}
     by_name = {parameter.name: parameter for parameter in parameters}
     for name, value in given.items():
         if name not in by_name:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import functools
 import sys
 import threading
+import traceback
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -98,6 +99,8 @@ def _apply(ms: MeshSet, filter_: Filter, given: dict[str, Any]) -> dict[str, Any
     try:
         returned, log = filter_.run(ms, values)
     except Exception as error:
+        # Whoever keeps the exception, as an interactive session does, would hold the mesh by it.
+        traceback.clear_frames(error.__traceback__)
         raise pymeshlab.PyMeshLabException(
             f"Failed to apply filter: {filter_.name}\nDetails: {error}"
         ) from error
@@ -112,7 +115,7 @@ def _values(ms: MeshSet, filter_: Filter, given: dict[str, Any]) -> dict[str, An
         raise pymeshlab.PyMeshLabException(
             f"{filter_.name} requires at least one mesh loaded in the MeshSet."
         )
-    return read_all(filter_.name, filter_.parameters, given, ms.current_mesh())
+    return read_all(filter_.name, filter_.parameters, given, ms)
 
 
 def _ours(args: tuple[Any, ...], key: str, given: dict[str, Any]) -> Filter | None:

@@ -15,6 +15,7 @@ import numpy as np
 import pymeshlab
 import pytest
 
+from meshlab_willmore import measure
 from meshlab_willmore.meshset import exchange, interrupts, layers, native
 from tests import meshes
 from tests.meshset.conftest import FLIP, SAMPLES, random_transform, set_of
@@ -56,6 +57,38 @@ def test_a_mesh_in_garbage_does_not_count(bumpy):
     finally:
         gc.enable()
     assert native.ids(bumpy) == [0]
+
+
+def fails_in_its_words(ms):
+    ms.apply_filter(FLIP, nope=1)
+
+
+def fails_in_a_value(ms):
+    ms.apply_filter(FLIP, foldangle=-1)
+
+
+def fails_while_reading(ms):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(exchange.ply, "read", lambda path: 1 / 0)
+        ms.apply_filter(FLIP)
+
+
+def fails_while_measuring(ms):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(measure, "measures", lambda vertices, faces: 1 / 0)
+        ms.get_willmore_measures()
+
+
+FAILURES = [fails_in_its_words, fails_in_a_value, fails_while_reading, fails_while_measuring]
+
+
+@pytest.mark.parametrize("fail", FAILURES)
+def test_an_exception_that_is_kept_does_not_hold_the_mesh(bumpy, fail):
+    with pytest.raises(pymeshlab.PyMeshLabException) as kept:
+        fail(bumpy)
+    assert bumpy.apply_filter(FLIP)["mesh_id"] == 0
+    assert native.ids(bumpy) == [0]
+    assert kept.value.__traceback__ is not None
 
 
 def test_a_held_mesh_is_parked_hidden_and_not_counted(bumpy):

@@ -10,9 +10,9 @@ from types import ModuleType
 import numpy as np
 import pymeshlab
 
+from ..files import writable_folder, written_whole
 from ..measure import triangle_shapes
 from ..report.camera import View
-from ..report.files import writable_folder, written_whole
 from ..report.table import Stage, significant
 from .models import Surface
 from .scan import Filters

@@ -1,0 +1,1 @@
+"""Filter scripts (`.mlx`) as data: read and written without PyMeshLab."""

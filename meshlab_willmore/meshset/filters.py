@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import pymeshlab
 
+from ..mesh.validate import check_degrees
 from . import exchange, interrupts, scalars, sides
 from .parameters import Parameter
 from .snapshot import take
@@ -63,6 +64,12 @@ def _has_selected_faces(ms: pymeshlab.MeshSet | None) -> bool:
     return ms is not None and ms.current_mesh().selected_face_number() > 0
 
 
+def _check_maxflips(name: str, value: int) -> int:
+    if value < NO_LIMIT:
+        raise ValueError(f"{name} must be {NO_LIMIT} (no limit) or more, it is {value}")
+    return value
+
+
 _FLIP_PARAMETERS = (
     Parameter(
         "selection",
@@ -104,6 +111,7 @@ _FLIP_PARAMETERS = (
         "Fold angle (deg)",
         "Refuse a flip if the faces at the new edge would be bent by more than this angle (0 is "
         "flat) and by more than at the old edge, or if it makes a sliver. 180 allows folds.",
+        check=check_degrees,
     ),
     Parameter(
         "featuredeg",
@@ -112,6 +120,7 @@ _FLIP_PARAMETERS = (
         "Feature angle (deg)",
         "Keep edges whose faces are bent by this angle or more (0 is flat); 180 keeps none. "
         "30 suits technical parts.",
+        check=check_degrees,
     ),
     Parameter(
         "maxflips",
@@ -119,6 +128,7 @@ _FLIP_PARAMETERS = (
         NO_LIMIT,
         "Most flips",
         f"Stop after this many flips; {NO_LIMIT} sets no limit.",
+        check=_check_maxflips,
     ),
     Parameter(
         "allowloss",
@@ -143,9 +153,7 @@ def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any]
             f"The mesh has data that would be lost: {'; '.join(snapshot.unsupported)}. "
             "Nothing was changed. allowloss=True goes ahead without them."
         )
-    maxflips = values["maxflips"]
-    if maxflips < NO_LIMIT:
-        raise ValueError(f"maxflips must be {NO_LIMIT} (no limit) or more, it is {maxflips}")
+    maxflips = _check_maxflips("maxflips", values["maxflips"])
     with interrupts.kept():
         result = optimize_flips(
             snapshot.vertices,

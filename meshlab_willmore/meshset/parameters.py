@@ -29,6 +29,9 @@ class Parameter(NamedTuple):
         What MeshLab would write beside and over the field.
     choices : tuple of str
         The values of an enum.
+    check : callable, optional
+        Gets name and value, and raises `ValueError` if the value is out of range. For scripts,
+        which are checked before they run; the filter itself checks what it gets anyway.
     """
 
     name: str
@@ -37,6 +40,7 @@ class Parameter(NamedTuple):
     label: str
     tooltip: str
     choices: tuple[str, ...] = ()
+    check: Callable[[str, Any], Any] | None = None
 
     def default_for(self, ms: pymeshlab.MeshSet | None) -> Any:
         """The default value for the current mesh of `ms`; an enum's index."""

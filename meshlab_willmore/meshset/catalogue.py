@@ -1,0 +1,233 @@
+"""Which filters there are, ours and MeshLab's own, and what they and their parameters are called.
+
+MeshLab and its scripts use other names than PyMeshLab, and PyMeshLab can't tell them: they stand in
+`native_filters.json`, recorded with one version of it. What another version has, or a plugin that
+was loaded later, is asked from PyMeshLab itself (see `probe`).
+"""
+
+from __future__ import annotations
+
+import difflib
+import functools
+import json
+import keyword
+import re
+from collections.abc import Iterable
+from importlib import metadata
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import pymeshlab
+
+from . import probe
+from .filters import BY_NAME, FILTERS, Filter
+from .probe import KnownParam
+
+_FILE = Path(__file__).with_name("native_filters.json")
+_RENAMED = Path(pymeshlab.__file__).with_name("keys.txt")
+_MANUAL = "https://pymeshlab.readthedocs.io/en/{version}/filter_list.html#{name}"
+_TYPES = {bool: "RichBool", int: "RichInt", float: "RichFloat", str: "RichEnum"}
+# All filters of this name, and few others, work on an empty set.
+_MAKES_MESHES = "create_"
+_MOST_SUGGESTIONS = 3
+_LEAST_LIKENESS = 0.55
+_LONGEST_NAME = 200
+
+
+class Known(NamedTuple):
+    """A filter.
+
+    Attributes
+    ----------
+    name, meshlab_name : str
+        The name in PyMeshLab, and the one in MeshLab and its scripts (empty where nobody knows it).
+    params : tuple of KnownParam
+        In MeshLab's order.
+    ours : bool
+        Whether it is a filter of this package.
+    makes_layers : bool
+        Whether it can add meshes to a set.
+    summary : str
+        What it does; of MeshLab's own, where that can be read.
+    needs_mesh : bool
+        Whether it fails on an empty set.
+    available : bool
+        Whether the PyMeshLab at hand has it.
+    """
+
+    name: str
+    meshlab_name: str
+    params: tuple[KnownParam, ...]
+    ours: bool
+    makes_layers: bool
+    summary: str
+    needs_mesh: bool = True
+    available: bool = True
+
+    def param(self, name: str) -> KnownParam | None:
+        """The parameter of that name in MeshLab or PyMeshLab."""
+        for param in self.params:
+            if name in (param.name, param.keyword):
+                return param
+            if param.guessed and keyword_of(name) == param.keyword:
+                return param
+        return None
+
+
+def find(name: str) -> Known | None:
+    """The filter of that name, of today or before, in MeshLab or PyMeshLab.
+
+    Upper and lower case differ, as they do in MeshLab. A filter that the PyMeshLab at hand has not
+    got, but others have, is found too; it is not `available`.
+    """
+    if name in BY_NAME:
+        return _ours(BY_NAME[name])
+    ours = next((f for f in FILTERS if f.meshlab_name == name), None)
+    if ours is not None:
+        return _ours(ours)
+    if name in _recorded():
+        return _native(name)
+    today = _by_meshlab_name().get(name) or _new_name(name)
+    return _native(today) if today else None
+
+
+def closest(name: str) -> list[str]:
+    """Up to three names of filters that `name` may be misspelt for.
+
+    They are MeshLab's names or PyMeshLab's, whichever it resembles more.
+    """
+    known = everything()
+    meshlab, ours = [k.meshlab_name for k in known if k.meshlab_name], [k.name for k in known]
+    return max(
+        (similar(name, names) for names in (meshlab, ours)),
+        key=lambda found: _likeness(name, found[0]) if found else 0.0,
+    )
+
+
+def similar(word: str, names: Iterable[str]) -> list[str]:
+    """Up to three of the names that resemble `word`, the nearest first, whatever their case."""
+    by_lower = {name.lower(): name for name in names}
+    found = difflib.get_close_matches(
+        word.lower()[:_LONGEST_NAME], by_lower, _MOST_SUGGESTIONS, _LEAST_LIKENESS
+    )
+    return [by_lower[lower] for lower in found]
+
+
+def everything() -> tuple[Known, ...]:
+    """All filters that the PyMeshLab at hand has, and ours, by PyMeshLab's name."""
+    natives = (_native(name) for name in _there())
+    return tuple(sorted((*natives, *map(_ours, FILTERS)), key=lambda known: known.name))
+
+
+def missing() -> tuple[Known, ...]:
+    """The filters that PyMeshLab had when they were recorded, and the one at hand has not."""
+    return tuple(_native(name) for name in sorted(_recorded().keys() - _there()))
+
+
+def keyword_of(name: str) -> str:
+    """PyMeshLab's name for something that MeshLab calls `name`."""
+    made = re.sub(r"[().,'\":+]", "", re.sub(r"[ /-]", "_", name.lower()))
+    return made + "_" if keyword.iskeyword(made) else made
+
+
+def version() -> str:
+    """The version of the PyMeshLab at hand; "latest" where it doesn't tell."""
+    try:
+        return metadata.version("pymeshlab")
+    except metadata.PackageNotFoundError:
+        return "latest"
+
+
+def recorded_version() -> str:
+    """The version of PyMeshLab that the names of its filters were recorded with."""
+    return _file()["pymeshlab"]
+
+
+def _likeness(word: str, name: str) -> float:
+    return difflib.SequenceMatcher(None, word.lower()[:_LONGEST_NAME], name.lower()).ratio()
+
+
+# --- MeshLab's own -----------------------------------------------------------------------------
+
+
+@functools.cache
+def _file() -> dict[str, Any]:
+    return json.loads(_FILE.read_text(encoding="utf-8"))
+
+
+def _recorded() -> dict[str, dict[str, Any]]:
+    return _file()["filters"]
+
+
+def _there() -> set[str]:
+    """The native filters that PyMeshLab has at this moment; plugins can come while it runs."""
+    return set(pymeshlab.filter_list()) - BY_NAME.keys()
+
+
+@functools.cache
+def _by_meshlab_name() -> dict[str, str]:
+    return {entry["name"]: name for name, entry in _recorded().items()}
+
+
+@functools.cache
+def _renamed() -> dict[str, str]:
+    """Today's PyMeshLab name by the one before 2022."""
+    text = _RENAMED.read_text(encoding="utf-8") if _RENAMED.exists() else ""
+    return dict(re.findall(r"^(\S+) +(\S+)\s*$", text, re.MULTILINE))
+
+
+def _new_name(name: str) -> str | None:
+    """PyMeshLab's name of a filter that is not recorded as `name`, or was called that before."""
+    old, there = keyword_of(name), _there()
+    # Of an unrecorded filter it is the one name that is known, or what its name in MeshLab makes.
+    if old in there - _recorded().keys():
+        return old
+    today = _renamed().get(old)
+    if today not in _recorded() and today not in there:
+        return None
+    # What differs from today's name in case or punctuation only is that name misspelt.
+    todays = _recorded().get(today, {"name": ""})["name"]
+    return None if name != old and keyword_of(todays) == old else today
+
+
+def _native(name: str) -> Known:
+    return _read(name, name in _there())
+
+
+@functools.cache
+def _read(name: str, there: bool) -> Known:
+    """A native filter, as recorded or else as PyMeshLab tells."""
+    entry = _recorded().get(name)
+    manual = _MANUAL.format(version=version(), name=name)
+    if entry is None:
+        needs_mesh = not name.startswith(_MAKES_MESHES)
+        return Known(name, "", probe.params(name), False, True, manual, needs_mesh)
+    params = tuple(_param(entry, *fields) for fields in entry["params"])
+    if there and version() != recorded_version():
+        params = probe.brought_up_to_date(name, params)
+    return Known(
+        name,
+        entry["name"],
+        params,
+        False,
+        entry["makes_layers"],
+        manual,
+        entry["needs_mesh"],
+        there,
+    )
+
+
+def _param(entry: dict[str, Any], name: str, kind: str, choices: Iterable[str] = ()) -> KnownParam:
+    made = keyword_of(name)
+    return KnownParam(name, made, kind, tuple(choices), made in entry["required"])
+
+
+# --- ours --------------------------------------------------------------------------------------
+
+
+@functools.cache
+def _ours(filter_: Filter) -> Known:
+    params = tuple(
+        KnownParam(p.name, p.name, _TYPES[p.type], p.choices, False) for p in filter_.parameters
+    )
+    return Known(filter_.name, filter_.meshlab_name, params, True, False, filter_.summary)

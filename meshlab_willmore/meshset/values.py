@@ -1,0 +1,106 @@
+"""A script's parameter as a value of the filter's own type."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..mlx import rich
+from ..mlx.steps import Param, Percentage, Value
+from ..mlx.words import quoted
+from .probe import KnownParam
+
+# MeshLab keeps values of one kind for types that it writes differently; between two kinds it reads
+# zero, or an empty text.
+_KINDS = {
+    "RichBool": "switch",
+    "RichInt": "whole number",
+    "RichEnum": "whole number",
+    "RichMesh": "whole number",
+    "RichFloat": "number",
+    "RichDynamicFloat": "number",
+    "RichAbsPerc": "number",
+    "RichString": "text",
+    "RichOpenFile": "text",
+    "RichSaveFile": "text",
+    "RichPosition": "point",
+    "RichDirection": "point",
+    "RichPoint3f": "point",
+    "RichColor": "colour",
+    "RichMatrix44f": "matrix",
+    "RichShotf": "camera",
+}
+_MISREAD = {"RichBool": "false", "RichString": "''", "RichOpenFile": "''", "RichSaveFile": "''"}
+
+
+def value_of(param: Param, own: KnownParam) -> Value:
+    """The value of a step's parameter, as one of the filter's own type.
+
+    Parameters
+    ----------
+    param : Param
+        As in the script. Without a type, a text is read as the filter's own type demands; an enum
+        may be given by its name.
+    own : KnownParam
+        What the filter has.
+
+    Returns
+    -------
+    Value
+        An enum's index, or else as in `Param`.
+
+    Raises
+    ------
+    ValueError
+        If it is none, or PyMeshLab would take it for another.
+    """
+    if isinstance(param.value, Percentage) and own.type != "RichAbsPerc":
+        raise ValueError(f"can't be a percentage: a {own.type} has no range; give a number")
+    value = _typed(param, own)
+    if own.required and value == "":
+        raise ValueError("is empty; the filter can't do without it")
+    # Written and read again, it is exactly what a script could say.
+    value = rich.parse(own.type, rich.attributes(Param(own.name, own.type, value)))
+    if own.choices:
+        _check_choice(param, own, value)
+    return value
+
+
+def _typed(param: Param, own: KnownParam) -> Value:
+    """The value, read if it is a text without a type."""
+    if own.choices and param.type in ("", own.type) and isinstance(param.value, str):
+        return _choice(own, param.value)
+    if not param.type:
+        untyped = isinstance(param.value, str)
+        return rich.parse_text(own.type, str(param.value)) if untyped else param.value
+    rich.attributes(param)
+    if _KINDS[param.type] != _KINDS[own.type]:
+        raise ValueError(
+            f"is given as {param.type}, but is a {own.type}: PyMeshLab would read "
+            f"{_MISREAD.get(own.type, 'zero')}; write type='{own.type}'"
+        )
+    return param.value
+
+
+def _choice(own: KnownParam, text: str) -> int:
+    """The index that a text names, or is."""
+    if text in own.choices:
+        return own.choices.index(text)
+    try:
+        return int(text)
+    except ValueError:
+        raise ValueError(f"there is no choice {quoted(text)}; {_listed(own.choices)}") from None
+
+
+def _check_choice(param: Param, own: KnownParam, index: Any) -> None:
+    if not 0 <= index < len(own.choices):
+        raise ValueError(f"there is no choice {index}; {_listed(own.choices)}")
+    meant = dict(param.details).get(f"enum_val{index}", "")
+    if meant in own.choices and own.choices[index] != meant:
+        raise ValueError(
+            f"choice {index} is {own.choices[index]!r}, but the script says {meant!r}, which is "
+            f"{own.choices.index(meant)}"
+        )
+
+
+def _listed(choices: tuple[str, ...]) -> str:
+    return "the choices are " + ", ".join(f"{i} {choice!r}" for i, choice in enumerate(choices))

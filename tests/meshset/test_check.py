@@ -1,0 +1,549 @@
+"""What is wrong with a script that reads well: each fault named, all at once, nothing run."""
+
+from typing import NamedTuple
+
+import pymeshlab
+import pytest
+
+from meshlab_willmore.meshset import catalogue, native
+from meshlab_willmore.meshset.check import faults_of, resolve
+from meshlab_willmore.mlx.read import read_bytes
+from meshlab_willmore.mlx.steps import Fault, Param, Percentage, ScriptError, Step
+from tests.meshset.conftest import FLIP, set_of
+
+FLIP_NAME = "Willmore flipping optimization"
+REMESH = "Remeshing: Isotropic Explicit Remeshing"
+REMESH_PARAMS = (
+    "Iterations, Adaptive, SelectedOnly, TargetLen, FeatureDeg, CheckSurfDist, MaxSurfDist, "
+    "SplitFlag, CollapseFlag, SwapFlag, SmoothFlag, ReprojectFlag"
+)
+HAUSDORFF = "Hausdorff Distance"
+MATRIX = "Matrix: Set/Copy Transformation"
+TAUBIN = "Taubin Smooth"
+NEEDS_MESH = "needs a mesh; give an input, or begin with a filter that creates one"
+
+
+def step(name, *params):
+    return f"<filter name='{name}'>{''.join(params)}</filter>"
+
+
+def old_step(name, **values):
+    params = "".join(f"<xmlparam name='{k}' value='{v}'/>" for k, v in values.items())
+    return f"<xmlfilter name='{name}'>{params}</xmlfilter>"
+
+
+def param(name, kind, **attributes):
+    text = " ".join(f"{key}='{value}'" for key, value in attributes.items())
+    return f"<Param name='{name}' type='{kind}' {text}/>"
+
+
+def energy(index, *choices):
+    named = {f"enum_val{i}": choice for i, choice in enumerate(choices)}
+    return param("energy", "RichEnum", value=index, enum_cardinality=9, **named)
+
+
+def share(name, value):
+    return param(name, "RichAbsPerc", value=value, min=0, max=100)
+
+
+def steps_of(*steps):
+    return read_bytes(f"<FilterScript>{''.join(steps)}</FilterScript>".encode(), "s.mlx")
+
+
+class Broken(NamedTuple):
+    """A script with one fault, and all that is said of it."""
+
+    said: str
+    steps: tuple[str, ...]
+    mesh_ids: tuple[int, ...] | None = None
+
+
+def broken(said, *steps, ids=None):
+    return Broken(said, steps, ids)
+
+
+CORPUS = [
+    # filters
+    broken(
+        "step 1 (Taubin Smoth): no such filter; did you mean 'Taubin Smooth' or "
+        "'Laplacian Smooth' or 'Depth Smooth'?",
+        step("Taubin Smoth"),
+    ),
+    broken(
+        "step 2 (taubin smooth): no such filter; did you mean 'Taubin Smooth'? "
+        "Upper and lower case differ",
+        step(TAUBIN),
+        step("taubin smooth"),
+    ),
+    broken(
+        "step 1 (Willmore Flipping Optimization): no such filter; did you mean "
+        "'Willmore flipping optimization'? Upper and lower case differ",
+        step("Willmore Flipping Optimization"),
+    ),
+    broken(
+        "step 1 (get_willmore_measure): no such filter; did you mean 'get_willmore_measures' or "
+        "'get_geometric_measures' or 'get_topological_measures'?",
+        step("get_willmore_measure"),
+    ),
+    broken("step 1 (qqqqq): no such filter; 'meshlab-willmore filters' lists them", step("qqqqq")),
+    # names of parameters
+    broken(
+        f"step 1 ({REMESH}), parameter 'Targetlen': no such parameter; did you mean 'TargetLen'? "
+        "Upper and lower case differ",
+        step(REMESH, share("Targetlen", 1)),
+    ),
+    broken(
+        f"step 1 ({REMESH}), parameter 'TargetLength': no such parameter; did you mean "
+        "'TargetLen'?",
+        step(REMESH, share("TargetLength", 1)),
+    ),
+    broken(
+        f"step 1 ({REMESH}), parameter 'zzz': no such parameter; it has {REMESH_PARAMS}",
+        step(REMESH, share("zzz", 1)),
+    ),
+    broken(
+        "step 1 (Planar flipping optimization), parameter 'qqq': no such parameter; it has "
+        "selection, pthreshold, planartype, iterations",
+        step("Planar flipping optimization", param("qqq", "RichInt", value=1)),
+    ),
+    broken(
+        "step 1 (Re-Compute Face Normals), parameter 'selection': no such parameter; the filter "
+        "has none",
+        step("Re-Compute Face Normals", param("selection", "RichBool", value="true")),
+    ),
+    broken(
+        f"step 1 ({REMESH}), parameter 'targetlen': is given twice, also as 'TargetLen'",
+        step(REMESH, share("TargetLen", 1), share("targetlen", 1)),
+    ),
+    broken(
+        f"step 1 ({REMESH}), parameter 'TargetLen': is given twice, also as 'targetlen'",
+        step(REMESH, share("targetlen", 1), share("TargetLen", 1)),
+    ),
+    broken(
+        f"step 1 ({FLIP_NAME}), parameter 'maxFlips': no such parameter; did you mean "
+        "'maxflips'? Upper and lower case differ",
+        step(FLIP_NAME, param("maxFlips", "RichInt", value=1)),
+    ),
+    # types
+    broken(
+        f"step 1 ({REMESH}), parameter 'FeatureDeg': is given as RichInt, but is a RichFloat: "
+        "PyMeshLab would read zero; write type='RichFloat'",
+        step(REMESH, param("FeatureDeg", "RichInt", value=30)),
+    ),
+    broken(
+        f"step 1 ({REMESH}), parameter 'Iterations': is given as RichFloat, but is a RichInt: "
+        "PyMeshLab would read zero; write type='RichInt'",
+        step(REMESH, param("Iterations", "RichFloat", value=3)),
+    ),
+    broken(
+        f"step 1 ({REMESH}), parameter 'Adaptive': is given as RichInt, but is a RichBool: "
+        "PyMeshLab would read false; write type='RichBool'",
+        step(REMESH, param("Adaptive", "RichInt", value=1)),
+    ),
+    broken(
+        f"step 1 ({FLIP_NAME}), parameter 'foldangle': is given as RichString, but is a "
+        "RichFloat: PyMeshLab would read zero; write type='RichFloat'",
+        step(FLIP_NAME, param("foldangle", "RichString", value="90")),
+    ),
+    broken(
+        "step 1 (Set Texture), parameter 'textName': is given as RichBool, but is a RichOpenFile: "
+        "PyMeshLab would read ''; write type='RichOpenFile'",
+        step("Set Texture", param("textName", "RichBool", value="true")),
+    ),
+    broken(
+        f"step 1 ({FLIP_NAME}), parameter 'energy': is given as RichString, but is a RichEnum: "
+        "PyMeshLab would read zero; write type='RichEnum'",
+        step(FLIP_NAME, param("energy", "RichString", value="willmore")),
+    ),
+    # values
+    broken(
+        f"step 1 ({REMESH}), parameter 'FeatureDeg': can't be a percentage: a RichFloat has no "
+        "range; give a number",
+        step(REMESH, share("FeatureDeg", "5%")),
+    ),
+    broken(
+        f"step 1 ({TAUBIN}), parameter 'lambda': 'half' is not a number",
+        old_step(TAUBIN, **{"lambda": "half"}),
+    ),
+    broken(
+        f"step 1 ({TAUBIN}), parameter 'stepSmoothNum': '2.5' is not a whole number",
+        old_step(TAUBIN, stepSmoothNum="2.5"),
+    ),
+    broken(
+        f"step 1 ({TAUBIN}), parameter 'Selected': 'yes' is neither 'true' nor 'false'",
+        old_step(TAUBIN, Selected="yes"),
+    ),
+    broken(
+        f"step 1 ({MATRIX}), parameter 'TransformMatrix': '1 0 0 1' is not 16 numbers",
+        old_step(MATRIX, TransformMatrix="1 0 0 1"),
+    ),
+    broken(
+        "step 1 (Set Mesh Camera), parameter 'Shot': a RichShotf can't be given as text",
+        old_step("Set Mesh Camera", Shot="1 2 3"),
+    ),
+    # choices
+    broken(
+        f"step 1 ({FLIP_NAME}), parameter 'energy': there is no choice 2; the choices are "
+        "0 'virtual willmore', 1 'willmore'",
+        step(FLIP_NAME, energy(2)),
+    ),
+    broken(
+        "step 1 (Planar flipping optimization), parameter 'planartype': there is no choice 5; the "
+        "choices are 0 'area/max side', 1 'inradius/circumradius', 2 'mean ratio', "
+        "3 'delaunay', 4 'topology'",
+        step(
+            "Planar flipping optimization",
+            param("planartype", "RichInt", value=5),
+        ),
+    ),
+    broken(
+        f"step 1 ({FLIP_NAME}), parameter 'energy': choice 0 is 'virtual willmore', but the "
+        "script says 'willmore', which is 1",
+        step(FLIP_NAME, energy(0, "willmore", "virtual willmore")),
+    ),
+    broken(
+        f"step 1 ({FLIP_NAME}), parameter 'energy': there is no choice 'area'; the choices are "
+        "0 'virtual willmore', 1 'willmore'",
+        old_step(FLIP_NAME, energy="area"),
+    ),
+    # ranges of ours
+    broken(
+        f"step 1 ({FLIP_NAME}), parameter 'foldangle': foldangle must lie in 0 .. 180 degrees, "
+        "not 181.0",
+        step(FLIP_NAME, param("foldangle", "RichFloat", value=181)),
+    ),
+    broken(
+        f"step 1 ({FLIP_NAME}), parameter 'featuredeg': featuredeg must lie in 0 .. 180 degrees, "
+        "not -1.0",
+        step(FLIP_NAME, param("featuredeg", "RichFloat", value=-1)),
+    ),
+    broken(
+        f"step 1 ({FLIP_NAME}), parameter 'maxflips': maxflips must be -1 (no limit) or more, it "
+        "is -2",
+        step(FLIP_NAME, param("maxflips", "RichInt", value=-2)),
+    ),
+    # what is required
+    broken(
+        "step 1 (Import cameras for active rasters from file), parameter 'ImportFile': is "
+        "missing; the filter can't do without it",
+        step("Import cameras for active rasters from file"),
+    ),
+    broken(
+        "step 1 (Import cameras for active rasters from file), parameter 'ImportFile': is "
+        "empty; the filter can't do without it",
+        old_step("Import cameras for active rasters from file", ImportFile=""),
+    ),
+    # meshes
+    broken(
+        f"step 1 ({HAUSDORFF}), parameter 'SampledMesh': there will be no mesh 2 (there are: 0, 1)",
+        step(HAUSDORFF, param("SampledMesh", "RichMesh", value=2)),
+        ids=(1, 0),
+    ),
+    broken(
+        f"step 2 ({HAUSDORFF}), parameter 'TargetMesh': there will be no mesh 1 "
+        "(there are: 0, 3; new ones get higher ids)",
+        step("Box/Cube"),
+        step(HAUSDORFF, param("TargetMesh", "RichMesh", value=1)),
+        ids=(0, 3),
+    ),
+    broken(
+        f"step 2 ({HAUSDORFF}), parameter 'TargetMesh': there will be no mesh 1 (there are: 0)",
+        step(FLIP_NAME),
+        step(HAUSDORFF, param("TargetMesh", "RichInt", value=1)),
+        ids=(0,),
+    ),
+    # Later steps need one too: that is no news.
+    broken(f"step 1 ({FLIP_NAME}): {NEEDS_MESH}", step(FLIP_NAME), step(TAUBIN), ids=()),
+    broken(
+        f"step 1 ({TAUBIN}): {NEEDS_MESH}",
+        step(TAUBIN),
+        step("Box/Cube"),
+        step(HAUSDORFF, param("TargetMesh", "RichMesh", value=7)),
+        ids=(),
+    ),
+]
+
+
+@pytest.mark.parametrize("case", CORPUS, ids=lambda case: case.said[:60])
+def test_each_fault_is_named(case):
+    steps = steps_of(*case.steps)
+    with pytest.raises(ScriptError) as caught:
+        resolve(steps, "s.mlx", case.mesh_ids)
+    assert str(caught.value) == f"s.mlx: {case.said}"
+    assert [str(fault) for fault in faults_of(steps, case.mesh_ids)] == [case.said]
+
+
+def test_the_corpus_is_one_of_different_faults():
+    assert len({case.said for case in CORPUS}) == len(CORPUS) >= 25
+
+
+def test_all_faults_are_told_in_order():
+    steps = steps_of(
+        step("qqqqq", share("x", 1)),
+        step(REMESH, share("zzz", 1), param("FeatureDeg", "RichInt", value=1)),
+        step(TAUBIN),
+        step(FLIP_NAME, energy(7)),
+        step("NXS Build"),
+    )
+    faults = faults_of(steps, ())
+    assert [(f.step, f.param) for f in faults] == [
+        (1, ""),
+        (2, "zzz"),
+        (2, "FeatureDeg"),
+        (4, "energy"),
+        (5, "input_file"),
+        (5, "output_file"),
+    ]
+
+
+def test_no_more_faults_than_anyone_reads():
+    faults = faults_of([Step(f"nonsense {i}") for i in range(1000)])
+    assert len(faults) == 101
+    assert faults[99].step == 100
+    assert faults[100] == Fault("has more than 100 faults; these are the first")
+
+
+def test_a_filter_whose_plugin_is_not_loaded(monkeypatch):
+    there = catalogue._there() - {"get_hausdorff_distance"}
+    monkeypatch.setattr(catalogue, "_there", lambda: there)
+    monkeypatch.setattr(catalogue, "recorded_version", lambda: "2099.1")
+    monkeypatch.setattr(catalogue, "version", lambda: "2099.1")
+    words = "is a filter of PyMeshLab 2099.1, but {}; 'meshlab-willmore doctor' tells more"
+    steps = [Step(HAUSDORFF)]
+    assert [f.text for f in faults_of(steps)] == [words.format("its plugin is not loaded here")]
+    monkeypatch.setattr(catalogue, "version", lambda: "2098.7")
+    assert [f.text for f in faults_of(steps)] == [
+        words.format("PyMeshLab 2098.7 has not got it, or not loaded its plugin")
+    ]
+
+
+# --- steps that are made by hand ---------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        (Param("maxflips", "RichInt", "x"), "'x' is not an int"),
+        (Param("maxflips", "RichInt", True), "True is not an int"),
+        (Param("maxflips", "", 2.5), "2.5 is not an int"),
+        (
+            Param("maxflips", "RichInt", 2**40),
+            "value='1099511627776' is not between -2147483648 and 2147483647",
+        ),
+        (Param("maxflips", "RichNt", 1), "unknown type 'RichNt'; did you mean 'RichInt'?"),
+        (Param("foldangle", "RichFloat", float("nan")), "value='nan' is not a finite number"),
+        (Param("foldangle", "", None), "None is not a float"),
+        (
+            Param("foldangle", "", Percentage(5.0)),
+            "can't be a percentage: a RichFloat has no range; give a number",
+        ),
+        (
+            Param("energy", "RichEnum", "area"),
+            "there is no choice 'area'; the choices are 0 'virtual willmore', 1 'willmore'",
+        ),
+    ],
+)
+def test_values_in_python_are_checked(given, said):
+    assert faults_of([Step(FLIP, (given,))]) == [Fault(said, 1, FLIP, given.name)]
+
+
+def test_the_same_parameter_twice():
+    twice = (Param("maxflips", "RichInt", 1), Param("maxflips", "RichInt", 2))
+    assert faults_of([Step(FLIP, twice)]) == [Fault("is given twice", 1, FLIP, "maxflips")]
+
+
+def test_a_step_without_a_name():
+    assert faults_of([Step("")]) == [Fault("has no name", 1)]
+
+
+def test_long_names_are_cut():
+    (fault,) = faults_of([Step("name " * 10_000)])
+    assert len(str(fault)) < 200
+    assert "\n" not in str(fault)
+
+
+# --- what is right -----------------------------------------------------------------------------
+
+
+def given_of(*steps, ids=None):
+    return [call.given for call in resolve(steps_of(*steps), "s.mlx", ids)]
+
+
+def test_calls_have_keywords_and_values_of_the_filters_own_types():
+    (call,) = resolve(
+        steps_of(
+            step(
+                REMESH,
+                param("Iterations", "RichInt", value=3),
+                param("Adaptive", "RichBool", value="true"),
+                share("TargetLen", "5%"),
+                share("maxsurfdist", 2),
+                param("FeatureDeg", "RichDynamicFloat", value=30, min=0, max=180),
+            )
+        ),
+        "s.mlx",
+    )
+    assert call.number == 1
+    assert call.known == catalogue.find(REMESH)
+    assert call.given == {
+        "iterations": 3,
+        "adaptive": True,
+        "targetlen": Percentage(5.0),
+        "maxsurfdist": 2.0,
+        "featuredeg": 30.0,
+    }
+    assert type(call.given["maxsurfdist"]) is type(call.given["featuredeg"]) is float
+
+
+def test_old_forms_get_the_filters_own_types():
+    assert given_of(
+        old_step(REMESH, Iterations="3", Adaptive="True", TargetLen="5%", FeatureDeg="30"),
+        old_step(FLIP_NAME, energy="willmore"),
+        old_step(FLIP_NAME, energy="1"),
+        old_step("Transform: Rotate", customAxis="[0, 0, 1]"),
+    ) == [
+        {"iterations": 3, "adaptive": True, "targetlen": Percentage(5.0), "featuredeg": 30.0},
+        {"energy": 1},
+        {"energy": 1},
+        {"customaxis": (0.0, 0.0, 1.0)},
+    ]
+
+
+@pytest.mark.parametrize("kind", ["RichPoint3f", "RichPosition", "RichDirection"])
+def test_points_and_directions_are_the_same(kind):
+    axis = param("customAxis", kind, x=0, y=0, z=1)
+    assert given_of(step("Transform: Rotate", axis)) == [{"customaxis": (0.0, 0.0, 1.0)}]
+
+
+def test_whole_numbers_in_python_are_floats_where_the_filter_has_floats():
+    (call,) = resolve([Step(FLIP, (Param("foldangle", "RichFloat", 45),))], "here")
+    assert call.given == {"foldangle": 45.0}
+    assert type(call.given["foldangle"]) is float
+
+
+def test_cameras_are_left_to_pymeshlab():
+    assert given_of(step("Set Mesh Camera", param("Shot", "RichShotf"))) == [{}]
+
+
+def test_an_enum_may_be_reworded_but_not_reordered():
+    assert given_of(step(FLIP_NAME, energy(1, "virtual energy", "true energy"))) == [{"energy": 1}]
+
+
+def test_ids_of_meshes_that_a_step_may_make():
+    distance = step(HAUSDORFF, param("TargetMesh", "RichMesh", value=4))
+    assert faults_of(steps_of(step("Box/Cube"), distance), (0, 3)) == []
+    assert faults_of(steps_of(step("Box/Cube"), distance), ()) == []
+    assert faults_of(steps_of(distance), None) == []
+    assert faults_of(steps_of(distance), (4,)) == []
+    first = step(HAUSDORFF, param("TargetMesh", "RichMesh", value=0))
+    assert faults_of(steps_of(step("Box/Cube"), first), ()) == []
+
+
+def test_a_script_that_creates_its_mesh_needs_none():
+    assert faults_of(steps_of(step("Box/Cube"), step(FLIP_NAME)), ()) == []
+
+
+def test_an_empty_script_is_no_fault():
+    assert resolve((), "s.mlx", ()) == ()
+
+
+DEFAULTS = {
+    "RichBool": True,
+    "RichInt": 1,
+    "RichEnum": 0,
+    "RichMesh": 0,
+    "RichFloat": 0.5,
+    "RichDynamicFloat": 0.5,
+    "RichAbsPerc": Percentage(1.0),
+    "RichString": "x",
+    "RichOpenFile": "x",
+    "RichSaveFile": "x",
+    "RichPosition": (0.0, 1.0, 2.0),
+    "RichDirection": (0.0, 1.0, 2.0),
+    "RichColor": (1, 2, 3, 255),
+    "RichMatrix44f": tuple(map(float, range(16))),
+    "RichShotf": None,
+}
+
+
+@pytest.mark.parametrize("name", ["name", "keyword"])
+def test_all_parameters_of_all_filters_go_through(name):
+    for known in catalogue.everything():
+        params = tuple(Param(getattr(p, name), p.type, DEFAULTS[p.type]) for p in known.params)
+        (call,) = resolve([Step(known.meshlab_name, params)], "here", (0,))
+        assert call.known == known
+        assert call.given == {
+            p.keyword: DEFAULTS[p.type] for p in known.params if p.type != "RichShotf"
+        }
+
+
+def test_what_pymeshlab_saves_has_no_fault(bumpy):
+    bumpy.clear_filter_script()
+    bumpy.meshing_isotropic_explicit_remeshing(iterations=1)
+    bumpy.apply_coord_taubin_smoothing(lambda_=0.25)
+    bumpy.compute_matrix_from_rotation(rotaxis="custom axis", customaxis=[0, 0, 1])
+    bumpy.set_matrix()
+    bumpy.set_camera_per_mesh()
+    bumpy.generate_copy_of_current_mesh()
+    bumpy.get_hausdorff_distance(sampledmesh=0, targetmesh=1)
+    steps = read_bytes(native.script_of(bumpy), "saved")
+    calls = resolve(steps, "saved", (0,))
+    assert len(calls) == 7
+    assert calls[1].given["lambda_"] == 0.25
+    assert calls[2].given["rotaxis"] == 3
+    assert calls[6].given["targetmesh"] == 1
+
+
+# --- what PyMeshLab makes of mismatches: why they are faults, or are not -----------------------
+
+
+def natively(tmp_path, xml):
+    """The set with the mesh that PyMeshLab's own reading of one step creates."""
+    path = tmp_path / "native.mlx"
+    path.write_text(f"<FilterScript>{xml}</FilterScript>")
+    ms = pymeshlab.MeshSet()
+    native.load_script(ms, path)
+    ms.apply_filter_script()
+    return ms
+
+
+@pytest.mark.parametrize(
+    ("kind", "value", "size"),
+    [
+        ("RichFloat", "3", 3.0),
+        ("RichDynamicFloat", "3", 3.0),
+        ("RichAbsPerc", "3", 3.0),
+        ("RichInt", "3", 0.0),
+        ("RichBool", "true", 0.0),
+        ("RichString", "3", 0.0),
+    ],
+)
+def test_numbers_are_faults_where_pymeshlab_reads_zero(tmp_path, kind, value, size):
+    cube = step("Box/Cube", param("size", kind, value=value, min=0, max=9))
+    assert natively(tmp_path, cube).current_mesh().bounding_box().dim_x() == size
+    assert bool(faults_of(steps_of(cube))) == (size == 0)
+
+
+@pytest.mark.parametrize(
+    ("kind", "faces"),
+    [("RichInt", 80), ("RichMesh", 80), ("RichEnum", 80), ("RichFloat", 20)],
+)
+def test_whole_numbers_are_faults_where_pymeshlab_reads_zero(tmp_path, kind, faces):
+    sphere = step("Sphere", param("subdiv", kind, value=1, enum_cardinality=2))
+    assert natively(tmp_path, sphere).current_mesh().face_number() == faces
+    assert bool(faults_of(steps_of(sphere))) == (faces == 20)
+
+
+# --- manners -----------------------------------------------------------------------------------
+
+
+def test_checking_runs_and_prints_nothing(capfd):
+    ms = set_of([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    before = native.script_of(ms)
+    capfd.readouterr()
+    for case in CORPUS:
+        faults_of(steps_of(*case.steps), (0,))
+    native._flush_c_streams()
+    assert capfd.readouterr() == ("", "")
+    assert native.script_of(ms) == before
+    assert ms.mesh_number() == 1

@@ -6,23 +6,15 @@ Importing this package adds its filters to `pymeshlab.MeshSet`.
 from __future__ import annotations
 
 import importlib
-import re
+import sys
+import warnings
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-try:
-    import pymeshlab  # noqa: F401
-except ImportError as error:
-    if not re.search(r"lib\S+\.so\S*: cannot open shared object", str(error)):
-        raise
-    raise ImportError(
-        f"PyMeshLab could not be loaded: {error}. On Debian and Ubuntu its system libraries come "
-        "with: apt-get install libgl1 libopengl0"
-    ) from error
-
 from ._version import __version__
-from .meshset.register import is_registered, register, unregister
 
 if TYPE_CHECKING:
+    from . import script
     from .measure import (
         Measures,
         intersection_angles,
@@ -30,6 +22,7 @@ if TYPE_CHECKING:
         vertex_willmore_energy,
         willmore_energy,
     )
+    from .meshset.register import is_registered, register, unregister
     from .optimize import FlipResult, optimize_flips
 
 # Numba takes longer to import than PyMeshLab: what needs it is fetched when it is first used.
@@ -37,8 +30,12 @@ _HOMES = {
     "FlipResult": "optimize",
     "Measures": "measure",
     "intersection_angles": "measure",
+    "is_registered": "meshset.register",
     "measures": "measure",
     "optimize_flips": "optimize",
+    "register": "meshset.register",
+    "script": "",
+    "unregister": "meshset.register",
     "vertex_willmore_energy": "measure",
     "willmore_energy": "measure",
 }
@@ -52,6 +49,7 @@ __all__ = [
     "measures",
     "optimize_flips",
     "register",
+    "script",
     "unregister",
     "vertex_willmore_energy",
     "willmore_energy",
@@ -59,13 +57,28 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    if name in _HOMES:
-        return getattr(importlib.import_module(f".{_HOMES[name]}", __name__), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    home = _HOMES[name]
+    if not home:
+        return importlib.import_module(f".{name}", __name__)
+    return getattr(importlib.import_module(f".{home}", __name__), name)
 
 
 def __dir__() -> list[str]:
     return sorted([*globals(), *__all__])
 
 
-register()
+def _register_where_possible() -> None:
+    """Register the filters, or warn that PyMeshLab's system libraries are missing."""
+    try:
+        importlib.import_module(".meshset.register", __name__).register()
+    except ImportError as error:
+        if error.__cause__ is None:
+            raise
+        # The command line says it in its own way. As `python -m` it begins with this import.
+        if Path(sys.argv[0]).stem not in ("meshlab-willmore", "-m"):
+            warnings.warn(f"{error}. Until then only the functions on arrays work.", stacklevel=3)
+
+
+_register_where_possible()

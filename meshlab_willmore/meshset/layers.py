@@ -19,7 +19,7 @@ import numpy as np
 import pymeshlab
 from pymeshlab import MeshSet
 
-from . import interrupts, native
+from . import interrupts, native, numbering
 
 # A set that has seen more layers than this gives the new mesh a new id.
 _MOST_IDS_TO_REBUILD = 1000
@@ -41,11 +41,10 @@ def identity(mesh: pymeshlab.Mesh) -> Identity:
     return Identity(mesh.label(), mesh.is_visible(), mesh.transform_matrix())
 
 
-def _can_refill(ms: MeshSet) -> bool:
+def _is_alone_and_free(ms: MeshSet) -> bool:
     """Whether the current mesh is all there is in `ms`, and nobody holds it."""
     alone = len(native.ids(ms)) == 1 and ms.raster_number() == 0
-    current = ms.current_mesh_id()
-    return alone and current <= _MOST_IDS_TO_REBUILD and not _is_held(ms, current)
+    return alone and not _is_held(ms, ms.current_mesh_id())
 
 
 def replace_current(
@@ -67,32 +66,52 @@ def replace_current(
         Label, visibility and transform of the new layer.
     """
     old_id = ms.current_mesh_id()
-    refill = _can_refill(ms)
+    alone = _is_alone_and_free(ms)
     with interrupts.deferred(), native.without_trace(ms):
-        if refill:
+        next_id = _use_up_id(ms) if alone else None
+        if next_id is not None and next_id <= _MOST_IDS_TO_REBUILD:
             try:
-                _refill(ms, old_id, load)
+                _refill(ms, old_id, next_id, load)
             except BaseException:
-                _refill(ms, old_id, reload)
+                _refill(ms, old_id, next_id, reload)
                 _identify(ms, who)
                 raise
         else:
+            if next_id is not None:
+                numbering.note_used(ms, next_id)
             _add(ms, load)
+            numbering.note_replaced(ms, old_id, ms.current_mesh_id())
             _retire(ms, old_id)
         _identify(ms, who)
 
 
-def _refill(ms: MeshSet, wanted_id: int, load: Callable[[MeshSet], None]) -> None:
-    """Empty the set and load: ids start again at 0, so stand-ins use up those below."""
+def _refill(ms: MeshSet, wanted_id: int, next_id: int, load: Callable[[MeshSet], None]) -> None:
+    """Empty the set and load: ids start again at 0, so stand-ins use up the others."""
     native.clear(ms)
-    stand_in = pymeshlab.Mesh(np.zeros((1, 3)))
-    for mesh_id in range(wanted_id):
-        native.add(ms, stand_in)
-        native.show(ms, mesh_id, False)
+    for _ in range(wanted_id):
+        _stand_in(ms)
     load(ms)
-    if wanted_id:
+    for _ in range(wanted_id + 1, next_id):
+        _stand_in(ms)
+    if next_id > 1:
         native.apply(ms, "delete_non_visible_meshes")
         native.make_current(ms, wanted_id)
+
+
+def _stand_in(ms: MeshSet) -> int:
+    """Add a hidden layer of one point, which becomes the current one; its id."""
+    native.add(ms, pymeshlab.Mesh(np.zeros((1, 3))))
+    native.show(ms, ms.current_mesh_id(), False)
+    return ms.current_mesh_id()
+
+
+def _use_up_id(ms: MeshSet) -> int:
+    """The id that the next layer would have had: PyMeshLab tells only by giving it away."""
+    current = ms.current_mesh_id()
+    mesh_id = _stand_in(ms)
+    native.apply(ms, "delete_current_mesh")
+    native.make_current(ms, current)
+    return mesh_id
 
 
 def _add(ms: MeshSet, load: Callable[[MeshSet], None]) -> None:
@@ -101,7 +120,8 @@ def _add(ms: MeshSet, load: Callable[[MeshSet], None]) -> None:
     try:
         load(ms)
     except BaseException:
-        for mesh_id in set(native.ids(ms)) - set(before):
+        for mesh_id in sorted(set(native.ids(ms)) - set(before)):
+            numbering.note_used(ms, mesh_id)
             native.make_current(ms, mesh_id)
             native.apply(ms, "delete_current_mesh")
         native.make_current(ms, current)
@@ -139,8 +159,9 @@ def parked(ms: MeshSet) -> frozenset[int]:
     return frozenset(i for i in _parked.get(ms) if ms.mesh_id_exists(i))
 
 
-def forget_parked(ms: MeshSet) -> None:
-    """Forget all parked layers, of a set that was emptied."""
+def forget(ms: MeshSet) -> None:
+    """Forget all layers, of a set that was emptied."""
+    numbering.forget(ms)
     if _parked.get(ms):
         _parked.put(ms, {})
 
@@ -176,8 +197,6 @@ def sweep(ms: MeshSet) -> None:
 
 _DELETE_HIDDEN = "delete_non_visible_meshes"
 _MERGE = "generate_by_merging_visible_meshes"
-# MeshLab's names, in scripts, of filters that delete hidden layers or may merge them.
-_SCRIPTED = ("Delete all non visible Mesh Layers", "Flatten Visible Layers")
 
 
 @contextmanager
@@ -226,15 +245,6 @@ def partners_beside_parked(ms: MeshSet, name: object, given: dict[str, Any]) -> 
         for keyword, value in defaults.items()
         if keyword.endswith("mesh") and keyword not in given and value in hidden
     }
-
-
-def check_script(ms: MeshSet) -> None:
-    """Raise if the filter script of `ms` has steps that would reach its parked layers."""
-    if parked(ms):
-        script = native.script_of(ms)
-        for step in _SCRIPTED:
-            if f'name="{step}"' in script:
-                raise _still_held(ms, f"the step {step!r} of the filter script")
 
 
 def _still_held(ms: MeshSet, what: str) -> pymeshlab.PyMeshLabException:

@@ -26,9 +26,12 @@ from pymeshlab import MeshSet
 _add_mesh = inspect.unwrap(MeshSet.add_mesh)
 _apply_filter = inspect.unwrap(MeshSet.apply_filter)
 _clear = inspect.unwrap(MeshSet.clear)
+_clear_filter_script = inspect.unwrap(MeshSet.clear_filter_script)
 _filter_parameter_values = inspect.unwrap(MeshSet.filter_parameter_values)
 _iterate = inspect.unwrap(MeshSet.__iter__)
+_load_filter_script = inspect.unwrap(MeshSet.load_filter_script)
 _load_new_mesh = inspect.unwrap(MeshSet.load_new_mesh)
+_save_filter_script = inspect.unwrap(MeshSet.save_filter_script)
 _set_current_mesh = inspect.unwrap(MeshSet.set_current_mesh)
 _set_mesh_visibility = inspect.unwrap(MeshSet.set_mesh_visibility)
 _set_parameter_verbosity = inspect.unwrap(MeshSet.set_parameter_verbosity)
@@ -60,9 +63,9 @@ def apply(ms: MeshSet, name: str, **given: Any) -> dict[str, Any]:
     return _apply_filter(ms, name, **given)
 
 
-def defaults(ms: MeshSet, name: str) -> dict[str, Any]:
-    """The default parameters of a native filter."""
-    return _filter_parameter_values(ms, name)
+def defaults(ms: MeshSet, name: str, **given: Any) -> dict[str, Any]:
+    """The parameters of a native filter: the given ones, and the defaults for the set."""
+    return _filter_parameter_values(ms, name, **given)
 
 
 def clear(ms: MeshSet) -> None:
@@ -98,41 +101,55 @@ def ids(ms: MeshSet) -> list[int]:
 @contextmanager
 def without_trace(ms: MeshSet) -> Iterator[None]:
     """Native filters inside print nothing and don't stay in the filter script of `ms`."""
-    with _quiet(ms), _unrecorded(ms):
+    with _quiet(ms), unrecorded(ms):
         yield
 
 
-def script_of(ms: MeshSet) -> str:
-    """The filter script of `ms` as XML."""
+def script_of(ms: MeshSet) -> bytes:
+    """The filter script of `ms` as XML; characters that can't be read are replaced."""
     with tempfile.TemporaryDirectory(prefix="meshlab_willmore_") as folder:
-        return _script(ms, Path(folder) / "script.mlx").decode("utf-8")
+        written = _script(ms, Path(folder) / "script.mlx")
+    # PyMeshLab writes in the encoding of the system, which is not always the UTF-8 of XML.
+    return written.decode("utf-8", errors="replace").encode("utf-8")
 
 
 @contextmanager
-def _unrecorded(ms: MeshSet) -> Iterator[None]:
+def unrecorded(ms: MeshSet) -> Iterator[None]:
+    """Native filters inside don't stay in the filter script of `ms`."""
     with tempfile.TemporaryDirectory(prefix="meshlab_willmore_") as folder:
         path = Path(folder) / "script.mlx"
         before = _script(ms, path)
-        # PyMeshLab does not tell when it can't write.
-        if not before.rstrip().endswith(_WHOLE_SCRIPT):
-            raise OSError(f"the filter script could not be written to {folder}; is the disk full?")
         try:
             yield
         finally:
             if _script(ms, path.with_name("after.mlx")) != before:
-                ms.clear_filter_script()
+                clear_script(ms)
                 if b"<filter" in before:
-                    with muted():
-                        ms.load_filter_script(str(path))
+                    load_script(ms, path)
 
 
 _WHOLE_SCRIPT = (b"</FilterScript>", b"<FilterScript/>")
 
 
+def load_script(ms: MeshSet, path: Path) -> None:
+    """Load a filter script in the place of the set's own."""
+    with muted():
+        _load_filter_script(ms, str(path))
+
+
+def clear_script(ms: MeshSet) -> None:
+    """Forget the steps of the set's filter script."""
+    _clear_filter_script(ms)
+
+
 def _script(ms: MeshSet, path: Path) -> bytes:
     """The filter script of `ms` as XML, which stays at `path`."""
-    ms.save_filter_script(str(path))
-    return path.read_bytes() if path.exists() else b""
+    _save_filter_script(ms, str(path))
+    script = path.read_bytes() if path.exists() else b""
+    # PyMeshLab does not tell when it can't write.
+    if not script.rstrip().endswith(_WHOLE_SCRIPT):
+        raise OSError(f"the filter script could not be written to {path.parent}; is the disk full?")
+    return script
 
 
 class Verbosity(NamedTuple):

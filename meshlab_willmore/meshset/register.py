@@ -9,26 +9,30 @@ from __future__ import annotations
 
 import functools
 import sys
-import threading
-import traceback
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import pymeshlab
 from pymeshlab import MeshSet
 
-from . import layers, native
+from ..mlx.write import write
+from . import layers, native, numbering, recording
+from .apply import apply, values_of
+from .check import resolve
 from .filters import BY_NAME, FILTERS, Filter
+from .listing import listing
 from .methods import method_of
-from .parameters import read_all
+from .play import play
+from .recording import our_script
 
 _MISSING = object()
 
+# What error messages call the filter script of a set.
+_SCRIPT = "filter script"
+
 # (owner, attribute, value before), in the order of replacement; empty: not registered.
 _replaced: list[tuple[Any, str, Any]] = []
-
-# PyMeshLab redirects the streams of the whole process: filters take turns.
-_turn = threading.RLock()
 
 # On the wrapper of apply_filter: how to undo a registration, also one of a module that was
 # imported before and dropped from sys.modules since.
@@ -91,33 +95,6 @@ def _wrap(owner: Any, name: str, make: Callable[[Callable], Callable]) -> None:
 # --- applying ----------------------------------------------------------------------------------
 
 
-def _apply(ms: MeshSet, filter_: Filter, given: dict[str, Any]) -> dict[str, Any]:
-    values = _values(ms, filter_, given)
-    verbosity = native.verbosity(ms)
-    if verbosity.all or verbosity.parameters:
-        print(f"\nApplying filter {filter_.name} with the following parameters:\n{values}\n")
-    try:
-        returned, log = filter_.run(ms, values)
-    except Exception as error:
-        # Whoever keeps the exception, as an interactive session does, would hold the mesh by it.
-        traceback.clear_frames(error.__traceback__)
-        raise pymeshlab.PyMeshLabException(
-            f"Failed to apply filter: {filter_.name}\nDetails: {error}"
-        ) from error
-    if verbosity.all:
-        print(f"LOG: 2 {log}\nLOG: 2 {filter_.name} applied!    [ 100% ]", file=sys.stderr)
-        print()
-    return returned
-
-
-def _values(ms: MeshSet, filter_: Filter, given: dict[str, Any]) -> dict[str, Any]:
-    if ms.mesh_number() == 0:
-        raise pymeshlab.PyMeshLabException(
-            f"{filter_.name} requires at least one mesh loaded in the MeshSet."
-        )
-    return read_all(filter_.name, filter_.parameters, given, ms)
-
-
 def _ours(args: tuple[Any, ...], key: str, given: dict[str, Any]) -> Filter | None:
     """The filter that a call names, if the call is well-formed and the filter is ours."""
     if len(args) == 1 and isinstance(args[0], str):
@@ -131,12 +108,20 @@ def _wrap_apply_filter(wrapped: Callable) -> Callable:
     def apply_filter(self: MeshSet, *args: Any, **kwargs: Any) -> dict[str, Any]:
         layers.sweep(self)
         filter_ = _ours(args, "filter_name", kwargs)
-        if filter_ is None:
-            name = args[0] if args else kwargs.get("filter_name")
-            with layers.parked_aside(self, name, kwargs) as given:
-                return wrapped(self, *args, **given)
-        with _turn:
-            return _apply(self, filter_, kwargs)
+        if filter_ is not None:
+            values = values_of(self, filter_, kwargs)
+            with _as_pymeshlab_error():
+                recording.catch_up(self)
+            returned = apply(self, filter_, values)
+            recording.note_ours(self, filter_, values)
+            return returned
+        name = args[0] if args else kwargs.get("filter_name")
+        kwargs = numbering.redirected(self, kwargs)
+        with layers.parked_aside(self, name, kwargs) as given:
+            exact = recording.exact_values(self, name, given)
+            returned = wrapped(self, *args, **given)
+        recording.note_native(self, str(name), exact)
+        return returned
 
     return apply_filter
 
@@ -147,7 +132,7 @@ def _wrap_filter_parameter_values(wrapped: Callable) -> Callable:
         if filter_ is None:
             partners = layers.partners_beside_parked(self, args[0] if args else None, kwargs)
             return wrapped(self, *args, **{**partners, **kwargs})
-        return _values(self, filter_, kwargs)
+        return values_of(self, filter_, kwargs)
 
     return filter_parameter_values
 
@@ -200,7 +185,7 @@ def _wrap_count(wrapped: Callable) -> Callable:
 def _wrap_clear(wrapped: Callable) -> Callable:
     def clear(self: MeshSet) -> None:
         wrapped(self)
-        layers.forget_parked(self)
+        layers.forget(self)
 
     return clear
 
@@ -221,13 +206,80 @@ def _wrap_set_mesh_visibility(wrapped: Callable) -> Callable:
     return set_mesh_visibility
 
 
+# --- filter scripts ----------------------------------------------------------------------------
+
+
 def _wrap_apply_filter_script(wrapped: Callable) -> Callable:
     def apply_filter_script(self: MeshSet) -> None:
         layers.sweep(self)
-        layers.check_script(self)
-        wrapped(self)
+        if not _is_ours_to_run(self):
+            wrapped(self)
+            return
+        with _as_pymeshlab_error():
+            there = [numbering.logical_id(self, i) for i in layers.visible_ids(self)]
+            calls = resolve(recording.steps_of(self), _SCRIPT, there)
+        play(self, calls, _SCRIPT)
 
     return apply_filter_script
+
+
+def _is_ours_to_run(ms: MeshSet) -> bool:
+    """Whether PyMeshLab can't run the script of `ms`: for its steps, or for the layers there."""
+    if recording.holds_more(ms) or layers.parked(ms):
+        return True
+    return numbering.has_moved(ms) and any(
+        param.type == "RichMesh" for step in recording.steps_of(ms) for param in step.params
+    )
+
+
+def _wrap_load_filter_script(wrapped: Callable) -> Callable:
+    def load_filter_script(self: MeshSet, filter_script_name: str) -> None:
+        with _as_pymeshlab_error():
+            steps = our_script(filter_script_name)
+        if steps is None:
+            wrapped(self, filter_script_name)
+            recording.forget(self)
+        else:
+            recording.put(self, steps)
+
+    return load_filter_script
+
+
+def _wrap_save_filter_script(wrapped: Callable) -> Callable:
+    def save_filter_script(self: MeshSet, filter_script_name: str) -> None:
+        if recording.holds_more(self) and isinstance(filter_script_name, str):
+            with _as_pymeshlab_error():
+                write(filter_script_name, recording.steps_of(self))
+        else:
+            wrapped(self, filter_script_name)
+
+    return save_filter_script
+
+
+def _wrap_print_filter_script(wrapped: Callable) -> Callable:
+    def print_filter_script(self: MeshSet) -> None:
+        if recording.holds_more(self):
+            print(listing(recording.steps_of(self)))
+        else:
+            wrapped(self)
+
+    return print_filter_script
+
+
+def _wrap_clear_filter_script(wrapped: Callable) -> Callable:
+    def clear_filter_script(self: MeshSet) -> None:
+        wrapped(self)
+        recording.forget(self)
+
+    return clear_filter_script
+
+
+@contextmanager
+def _as_pymeshlab_error() -> Iterator[None]:
+    try:
+        yield
+    except (ValueError, OSError) as error:
+        raise pymeshlab.PyMeshLabException(str(error)) from error
 
 
 # --- lists -------------------------------------------------------------------------------------
@@ -285,9 +337,13 @@ _METHODS: dict[str, Callable[[Callable], Callable]] = {
     "apply_filter": _wrap_apply_filter,
     "apply_filter_script": _wrap_apply_filter_script,
     "clear": _wrap_clear,
+    "clear_filter_script": _wrap_clear_filter_script,
     "filter_parameter_values": _wrap_filter_parameter_values,
+    "load_filter_script": _wrap_load_filter_script,
     "mesh_number": _wrap_count,
     "number_meshes": _wrap_count,
+    "print_filter_script": _wrap_print_filter_script,
+    "save_filter_script": _wrap_save_filter_script,
     "set_current_mesh": _wrap_set_current_mesh,
     "set_mesh_visibility": _wrap_set_mesh_visibility,
     "set_parameter_verbosity": _wrap_set_verbosity("parameters"),

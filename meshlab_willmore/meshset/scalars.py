@@ -11,7 +11,7 @@ import numpy as np
 import pymeshlab
 from pymeshlab import MeshSet
 
-from . import interrupts, native
+from . import interrupts, native, numbering
 
 # muParser, which evaluates MeshLab's functions, takes 20000 characters; a value with its test
 # and brackets takes at most 40.
@@ -57,6 +57,7 @@ def _transfer(ms: MeshSet, scalar: np.ndarray) -> None:
     helper = pymeshlab.Mesh(vertices, v_scalar_array=scalar)
     native.add(ms, helper, "Willmore energy")
     source = ms.current_mesh_id()
+    numbering.note_used(ms, source)
     native.make_current(ms, target)
     try:
         native.apply(ms, "set_matrix_identity")

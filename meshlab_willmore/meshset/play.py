@@ -1,0 +1,156 @@
+"""Running the checked steps of a filter script on a set of meshes.
+
+Native steps are run by PyMeshLab's own filter functions, with the script's values. (PyMeshLab could
+run a script in one go, but would tell neither what a step returned nor which one failed.)
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple
+
+import numpy as np
+import pymeshlab
+from pymeshlab import MeshSet
+
+from ..mlx.steps import Percentage
+from . import layers, native, numbering
+from .apply import apply, values_of
+from .check import Call
+from .filters import BY_NAME
+
+_MATRIX_SIDE = 4
+
+
+class Played(NamedTuple):
+    """A step that was run.
+
+    Attributes
+    ----------
+    number : int
+        Its place in the script, from 1.
+    name : str
+        The filter's name in PyMeshLab.
+    given : dict
+        The parameters that the script gives, by PyMeshLab's keyword, as they were passed.
+    seconds : float
+        How long it took.
+    returned : dict
+        What the filter returned.
+    """
+
+    number: int
+    name: str
+    given: dict[str, Any]
+    seconds: float
+    returned: dict[str, Any]
+
+
+def play(
+    ms: MeshSet,
+    calls: Iterable[Call],
+    source: str = "filter script",
+    before: Callable[[Call], None] | None = None,
+    after: Callable[[Played], None] | None = None,
+) -> list[Played]:
+    """Run calls, one after the other; nothing is written into the set's own filter script.
+
+    Parameters
+    ----------
+    ms : pymeshlab.MeshSet
+        Changed in place.
+    calls : iterable of Call
+        Checked steps. Mesh ids in them count as if our filters worked in place.
+    source : str
+        What error messages call the script.
+    before, after : callable, optional
+        Called around each step.
+
+    Raises
+    ------
+    pymeshlab.PyMeshLabException
+        If a step fails; the steps before it have had their effect.
+    """
+    done = []
+    with native.unrecorded(ms):
+        for call in calls:
+            if before is not None:
+                before(call)
+            played = _play_one(ms, call, source)
+            done.append(played)
+            if after is not None:
+                after(played)
+    return done
+
+
+def _play_one(ms: MeshSet, call: Call, source: str) -> Played:
+    name = call.known.name
+    start = time.perf_counter()
+    try:
+        given = {key: _native_value(ms, call, key, value) for key, value in call.given.items()}
+        layers.sweep(ms)
+        if call.known.ours:
+            returned = apply(ms, BY_NAME[name], values_of(ms, BY_NAME[name], given))
+        else:
+            given = _without_defaults(ms, name, given)
+            with layers.parked_aside(ms, name, given) as completed:
+                returned = native.apply(ms, name, **completed)
+    except Exception as error:
+        if not call.known.ours:
+            native.forget_failures()
+        raise pymeshlab.PyMeshLabException(
+            f"{source}, step {call.number} ({name}): {_reason(error, name)}"
+        ) from error
+    return Played(call.number, name, given, time.perf_counter() - start, returned)
+
+
+def _reason(error: Exception, name: str) -> str:
+    """The message without what PyMeshLab puts before it: the step is named anyway."""
+    text = str(error)
+    for start in (f"Failed to apply filter: {name}", f"Failed to apply filter:  '{name}."):
+        text = text.removeprefix(start)
+    return text.strip().removeprefix("Details: ") or type(error).__name__
+
+
+def _native_value(ms: MeshSet, call: Call, keyword: str, value: Any) -> Any:
+    """The value as PyMeshLab's filter functions take it."""
+    param = call.known.param(keyword)
+    kind = param.type if param else ""
+    if isinstance(value, Percentage):
+        return pymeshlab.PercentageValue(value.percent)
+    if kind == "RichAbsPerc":
+        return pymeshlab.PureValue(value)
+    if kind == "RichColor":
+        return pymeshlab.Color(*value)
+    if kind == "RichMesh":
+        return _mesh_id(ms, keyword, value)
+    if isinstance(value, tuple):
+        array = np.array(value, dtype=float)
+        is_matrix = len(array) == _MATRIX_SIDE * _MATRIX_SIDE
+        return array.reshape(_MATRIX_SIDE, _MATRIX_SIDE) if is_matrix else array
+    return value
+
+
+def _mesh_id(ms: MeshSet, keyword: str, value: Any) -> int:
+    """PyMeshLab would crash where there is no such mesh."""
+    mesh_id = numbering.physical_id(ms, value)
+    if mesh_id is None:
+        there = sorted(numbering.logical_id(ms, i) for i in layers.visible_ids(ms))
+        known = ", ".join(map(str, there)) or "none"
+        raise ValueError(f"parameter {keyword!r}: there is no mesh {value} (there are: {known})")
+    return mesh_id
+
+
+def _without_defaults(ms: MeshSet, name: str, given: dict[str, Any]) -> dict[str, Any]:
+    """Leave out points that are the filter's own default on this mesh.
+
+    The default has double precision, which no caller can pass on: PyMeshLab takes points in single.
+    """
+    points = [key for key, value in given.items() if np.shape(value) == (3,)]
+    if not points or not ms.mesh_number():
+        return given
+    with native.muted():
+        defaults = native.defaults(ms, name)
+    same = {key for key in points if np.array_equal(given[key], defaults.get(key, np.nan))}
+    return {key: value for key, value in given.items() if key not in same}

@@ -1,0 +1,124 @@
+"""Filter scripts (`.mlx`): read, checked, run and written.
+
+PyMeshLab runs scripts loosely: it skips what it does not understand, without a word. Here a script
+is checked as a whole before its first step runs, and everything that is wrong with it is named::
+
+    from meshlab_willmore import script
+
+    for fault in script.check("clean.mlx"):
+        print(fault)
+    for step in script.run("clean.mlx", ms):
+        print(step.number, step.name, step.seconds, step.returned)
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Collection, Iterable
+from pathlib import Path
+
+import pymeshlab
+
+from .meshset import layers, numbering
+from .meshset.check import Call, faults_of, resolve
+from .meshset.play import Played, play
+from .mlx.read import read
+from .mlx.steps import Fault, Param, Percentage, ScriptError, Step
+from .mlx.write import write
+
+__all__ = [
+    "Call",
+    "Fault",
+    "Param",
+    "Percentage",
+    "Played",
+    "ScriptError",
+    "Step",
+    "calls",
+    "check",
+    "read",
+    "run",
+    "write",
+]
+
+Script = str | os.PathLike[str] | Iterable[Step]
+
+_UNNAMED = "filter script"
+
+
+def check(script: Script, mesh_ids: Collection[int] | None = None) -> list[Fault]:
+    """Find all that is wrong with a script, without running it.
+
+    Parameters
+    ----------
+    script : path or iterable of Step
+        A file, or the steps themselves.
+    mesh_ids : collection of int, optional
+        Ids of the layers that are there when the script starts; not checked if they aren't known.
+
+    Returns
+    -------
+    list of Fault
+        Empty if the script can run.
+    """
+    try:
+        steps, _ = _open(script)
+    except ScriptError as error:
+        return list(error.faults)
+    return faults_of(steps, mesh_ids)
+
+
+def calls(script: Script, mesh_ids: Collection[int] | None = None) -> tuple[Call, ...]:
+    """The filter calls that a script stands for, with filters and parameters looked up.
+
+    Raises
+    ------
+    ScriptError
+        With all faults of the script.
+    """
+    steps, source = _open(script)
+    return resolve(steps, source, mesh_ids)
+
+
+def run(
+    script: Script,
+    ms: pymeshlab.MeshSet | None = None,
+    *,
+    before: Callable[[Call], None] | None = None,
+    after: Callable[[Played], None] | None = None,
+) -> list[Played]:
+    """Check a script, then run it on a set of meshes.
+
+    Parameters
+    ----------
+    script : path or iterable of Step
+        A file, or the steps themselves.
+    ms : pymeshlab.MeshSet, optional
+        Changed in place; an empty one is made for a script that creates its own mesh. Its own
+        filter script stays as it is.
+    before, after : callable, optional
+        Called around each step, with the `Call` and with what was `Played`.
+
+    Returns
+    -------
+    list of Played
+        For each step its number, name, parameters, time and what it returned.
+
+    Raises
+    ------
+    ScriptError
+        With all faults of the script; then no step has run.
+    pymeshlab.PyMeshLabException
+        If a step fails; it is named, and the steps before it have had their effect.
+    """
+    ms = pymeshlab.MeshSet() if ms is None else ms
+    steps, source = _open(script)
+    there = [numbering.logical_id(ms, i) for i in layers.visible_ids(ms)]
+    return play(ms, resolve(steps, source, there), source, before, after)
+
+
+def _open(script: Script) -> tuple[tuple[Step, ...], str]:
+    """The steps of a script, and what to call it."""
+    if isinstance(script, (str, os.PathLike)):
+        return read(script), Path(script).name
+    return tuple(script), _UNNAMED

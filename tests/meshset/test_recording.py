@@ -1,0 +1,425 @@
+"""Our filters in the filter script of a set, and such scripts applied to another."""
+
+import itertools
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pymeshlab
+import pytest
+
+import meshlab_willmore
+from meshlab_willmore.mlx.read import read
+from meshlab_willmore.mlx.steps import Step
+from meshlab_willmore.mlx.write import to_xml
+from tests import meshes
+from tests.meshset.conftest import FLIP, SAMPLES, set_of
+
+SCALAR = "compute_scalar_by_willmore_energy_per_vertex"
+MEASURE = "get_willmore_measures"
+SAMPLE_SCRIPT = SAMPLES / "sample_filter_script.mlx"
+
+OURS = {"flip": (FLIP, {"foldangle": 80.1}), "energy": (SCALAR, {}), "measure": (MEASURE, {})}
+NATIVE = {
+    "smooth": ("apply_coord_taubin_smoothing", {"lambda_": 0.1234567, "stepsmoothnum": 3}),
+    # The target length is 1 % of the diagonal, a number with more digits than MeshLab writes.
+    "remesh": ("meshing_isotropic_explicit_remeshing", {"iterations": 1}),
+    "turn": ("compute_matrix_from_rotation", {"angle": 33.3}),
+    "select": ("compute_selection_by_condition_per_face", {"condselect": "fi < 40 && 1 > 0"}),
+    "offset": ("generate_resampled_uniform_mesh", {"cellsize": pymeshlab.PercentageValue(7.7)}),
+}
+CHAINS = [
+    *itertools.product(OURS),
+    *itertools.permutations(["flip", "smooth"]),
+    *itertools.permutations(["flip", "remesh", "energy"]),
+    *itertools.product(["flip", "turn"], repeat=3),
+    ("select", "flip", "measure", "smooth"),
+    ("offset", "flip", "remesh", "flip", "smooth"),
+    ("smooth", "energy", "offset", "flip"),
+]
+
+
+def sphere():
+    return set_of(*meshes.bumpy_sphere(150))
+
+
+def state(ms):
+    """All meshes of a set, to the last bit."""
+    return [
+        (
+            mesh.vertex_matrix().tobytes(),
+            mesh.face_matrix().tobytes(),
+            mesh.transform_matrix().tobytes(),
+            mesh.face_selection_array().tobytes(),
+            mesh.vertex_scalar_array().tobytes() if mesh.has_vertex_scalar() else b"",
+        )
+        for mesh in ms
+    ]
+
+
+def apply_chain(ms, chain):
+    for key in chain:
+        name, given = {**OURS, **NATIVE}[key]
+        ms.apply_filter(name, **given)
+
+
+def names(path):
+    return [step.filter for step in read(path)]
+
+
+def printed(ms, capfd):
+    capfd.readouterr()
+    ms.print_filter_script()
+    return capfd.readouterr().out
+
+
+# Recording
+
+
+@pytest.mark.parametrize("chain", CHAINS, ids="-".join)
+def test_a_saved_script_gives_the_same_meshes_to_the_last_bit(chain, tmp_path, capfd):
+    called = sphere()
+    apply_chain(called, chain)
+    path = str(tmp_path / "chain.mlx")
+    called.save_filter_script(path)
+
+    loaded = sphere()
+    loaded.load_filter_script(path)
+    assert printed(loaded, capfd) == printed(called, capfd)
+    again = str(tmp_path / "again.mlx")
+    loaded.save_filter_script(again)
+    assert read(again) == read(path)
+    loaded.apply_filter_script()
+    assert state(loaded) == state(called)
+    loaded.save_filter_script(again)
+    assert read(again) == read(path), "applying a script does not add to it"
+
+
+def test_steps_are_recorded_in_their_order_with_all_parameters(bumpy, tmp_path):
+    bumpy.apply_coord_taubin_smoothing()
+    bumpy.meshing_edge_flip_by_willmore_optimization(energy="willmore", maxflips=7)
+    bumpy.get_geometric_measures()
+    bumpy.get_willmore_measures()
+    path = tmp_path / "script.mlx"
+    bumpy.save_filter_script(str(path))
+    smooth, flip, geometry, measure = read(path)
+    assert (smooth.filter, geometry.filter) == ("Taubin Smooth", "Compute Geometric Measures")
+    assert measure == Step("Willmore measures")
+    assert flip.filter == "Willmore flipping optimization"
+    assert {p.name: (p.type, p.value) for p in flip.params} == {
+        "selection": ("RichBool", False),
+        "energy": ("RichEnum", 1),
+        "search": ("RichEnum", 0),
+        "monotone": ("RichBool", True),
+        "foldangle": ("RichFloat", 90.0),
+        "featuredeg": ("RichFloat", 180.0),
+        "maxflips": ("RichInt", 7),
+        "allowloss": ("RichBool", False),
+    }
+
+
+def rounded(text):
+    """The lines; a percentage of a range that was written with six digits has fewer."""
+    return re.sub(r"([\d.]+)%", lambda m: f"{float(m[1]):.4g}%", text).split("\n")
+
+
+def test_the_listing_reads_as_pymeshlabs_own(bumpy, capfd):
+    """PyMeshLab lists the native steps; ours, added afterwards, leave these lines alone."""
+    bumpy.apply_coord_taubin_smoothing(lambda_=0.1234567)
+    bumpy.compute_matrix_from_rotation(angle=33.3, customaxis=[0.1, 0.2, 0.3])
+    bumpy.meshing_isotropic_explicit_remeshing(iterations=1)
+    bumpy.set_matrix(transformmatrix=np.arange(16.0).reshape(4, 4) / 7, compose=True)
+    bumpy.set_matrix_identity()
+    bumpy.set_color_per_vertex(color1=pymeshlab.Color(10, 20, 30, 40))
+    bumpy.compute_color_from_scalar_per_vertex()
+    bumpy.compute_scalar_by_function_per_vertex(q="x + 1")
+    bumpy.create_cube()
+    bumpy.get_hausdorff_distance(sampledmesh=0, targetmesh=1, samplenum=3)
+    own = printed(bumpy, capfd)
+    bumpy.get_willmore_measures()
+    head, *rest = own.split("\n")
+    assert head == "Filter Script Size : 10"
+    assert rounded(printed(bumpy, capfd)) == [
+        "Filter Script Size : 11",
+        *rounded("\n".join(rest[:-1])),
+        "10: willmore_measures",
+        "",
+        "",
+    ]
+
+
+def test_a_step_that_fails_is_not_recorded(bumpy, tmp_path, capfd):
+    bumpy.apply_coord_taubin_smoothing()
+    with pytest.raises(pymeshlab.PyMeshLabException):
+        bumpy.meshing_edge_flip_by_willmore_optimization(maxflips=-5)
+    assert printed(bumpy, capfd).startswith("Filter Script Size : 1\n")
+
+
+def test_clearing_forgets_ours_and_clearing_the_meshes_does_not(bumpy, capfd):
+    bumpy.get_willmore_measures()
+    bumpy.clear()
+    assert printed(bumpy, capfd).startswith("Filter Script Size : 1\n")
+    bumpy.clear_filter_script()
+    assert printed(bumpy, capfd) == "Filter Script Size : 0\n\n"
+
+
+def test_text_outside_ascii_and_quotes_come_back(bumpy, tmp_path):
+    label = 'Müller\'s <mesh> "7" & 雪'
+    bumpy.set_mesh_name(newname=label)
+    bumpy.get_willmore_measures()
+    path = tmp_path / "script.mlx"
+    bumpy.save_filter_script(str(path))
+    other = sphere()
+    other.load_filter_script(str(path))
+    other.apply_filter_script()
+    assert other.current_mesh().label() == label
+
+
+def test_a_folder_that_is_not_there_is_named(bumpy, tmp_path):
+    bumpy.get_willmore_measures()
+    with pytest.raises(pymeshlab.PyMeshLabException, match="nowhere"):
+        bumpy.save_filter_script(str(tmp_path / "nowhere" / "script.mlx"))
+
+
+SEEN_LATE = """
+import pymeshlab, sys
+ms = pymeshlab.MeshSet()
+ms.create_sphere(subdiv=2)
+import meshlab_willmore
+ms.apply_coord_taubin_smoothing(lambda_=0.1234567)
+ms.get_willmore_measures()
+ms.set_selection_none()
+ms.save_filter_script(sys.argv[1])
+"""
+
+
+def test_steps_from_before_the_import_come_first(tmp_path):
+    path = tmp_path / "script.mlx"
+    subprocess.run([sys.executable, "-c", SEEN_LATE, str(path)], check=True)
+    assert names(path) == ["Sphere", "Taubin Smooth", "Willmore measures", "Select None"]
+    smooth = {p.name: p.value for p in read(path)[1].params}
+    assert smooth["lambda"] == np.float32(0.1234567)
+
+
+def test_a_loaded_script_takes_the_place_of_the_recorded_one(bumpy, tmp_path):
+    bumpy.get_willmore_measures()
+    path = str(tmp_path / "script.mlx")
+    bumpy.save_filter_script(path)
+    bumpy.set_selection_none()
+    bumpy.load_filter_script(path)
+    bumpy.save_filter_script(path)
+    assert names(path) == ["Willmore measures"]
+    bumpy.apply_filter(FLIP)
+    bumpy.load_filter_script(str(SAMPLE_SCRIPT))
+    bumpy.save_filter_script(path)
+    assert names(path) == names(SAMPLE_SCRIPT)
+
+
+# Ids of meshes
+
+
+def two_meshes():
+    ms = set_of(*meshes.bumpy_sphere(100))
+    ms.add_mesh(pymeshlab.Mesh(*meshes.bumpy_sphere(120)), "other")
+    return ms
+
+
+@pytest.mark.parametrize("held", [False, True])
+def test_mesh_ids_point_to_the_same_mesh_after_flips(held, tmp_path):
+    called = two_meshes()
+    keep = called.current_mesh() if held else None
+    called.apply_filter(FLIP)
+    called.create_cube()
+    called.apply_filter(SCALAR)
+    called.create_sphere(subdiv=1)
+    last = called.current_mesh_id()
+    flipped = next(mesh.id() for mesh in called if mesh.label() == "other")
+    called.set_current_mesh(last)
+    called.transfer_attributes_per_vertex(sourcemesh=flipped, targetmesh=last)
+    path = str(tmp_path / "script.mlx")
+    called.save_filter_script(path)
+    transfer = {p.name: p.value for p in read(path)[-1].params}
+    assert (transfer["SourceMesh"], transfer["TargetMesh"]) == (1, 3)
+    del keep
+
+    loaded = two_meshes()
+    other = loaded.current_mesh() if not held else None
+    loaded.load_filter_script(path)
+    loaded.apply_filter_script()
+    assert state(loaded) == state(called)
+    del other
+
+
+def test_a_script_of_meshlab_finds_the_flipped_mesh_by_its_id(tmp_path):
+    path = tmp_path / "script.mlx"
+    path.write_text(
+        '<!DOCTYPE FilterScript><FilterScript><filter name="Willmore flipping optimization"/>'
+        '<filter name="Hausdorff Distance">'
+        '<Param type="RichMesh" name="SampledMesh" value="1"/>'
+        '<Param type="RichMesh" name="TargetMesh" value="0"/>'
+        "</filter></FilterScript>"
+    )
+    ms = two_meshes()
+    (_, distance) = meshlab_willmore.script.run(path, ms)
+    assert distance.given["sampledmesh"] == 2
+    assert distance.returned["n_samples"] > 0
+
+
+def test_a_mesh_that_a_step_deleted_is_an_error_and_no_crash(tmp_path):
+    path = tmp_path / "script.mlx"
+    path.write_text(
+        '<FilterScript><filter name="Willmore measures"/><filter name="Delete Current Mesh"/>'
+        '<filter name="Hausdorff Distance">'
+        '<Param type="RichMesh" name="SampledMesh" value="1"/></filter></FilterScript>'
+    )
+    ms = two_meshes()
+    ms.load_filter_script(str(path))
+    with pytest.raises(
+        pymeshlab.PyMeshLabException,
+        match=r"step 3 \(get_hausdorff_distance\): parameter 'sampledmesh': there is no mesh 1 ",
+    ):
+        ms.apply_filter_script()
+
+
+def test_a_native_script_knows_the_mesh_after_flips_made_before_it(tmp_path):
+    ms = two_meshes()
+    ms.apply_filter(FLIP)
+    path = tmp_path / "script.mlx"
+    path.write_text(
+        '<FilterScript><filter name="Hausdorff Distance">'
+        '<Param type="RichMesh" name="SampledMesh" value="1"/>'
+        '<Param type="RichMesh" name="TargetMesh" value="0"/></filter></FilterScript>'
+    )
+    ms.load_filter_script(str(path))
+    ms.apply_filter_script()
+    assert ms.mesh_number() == 2
+
+
+# Scripts without our filters
+
+
+def natively(code, *args):
+    run = subprocess.run(
+        [sys.executable, "-c", code, *map(str, args)], capture_output=True, text=True, check=True
+    )
+    return run.stdout, run.stderr
+
+
+NATIVE_SCRIPT = """
+import sys, hashlib
+if sys.argv[2] == "with":
+    import meshlab_willmore
+import pymeshlab
+ms = pymeshlab.MeshSet()
+ms.load_filter_script(sys.argv[1])
+ms.print_filter_script()
+try:
+    ms.apply_filter_script()
+except pymeshlab.PyMeshLabException as error:
+    print(error)
+for mesh in ms:
+    print(hashlib.sha1(mesh.vertex_matrix().tobytes() + mesh.face_matrix().tobytes()).hexdigest())
+ms.save_filter_script(sys.argv[3])
+sys.stdout.flush()
+print(ms.mesh_number())
+"""
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        SAMPLE_SCRIPT.read_text(),
+        '<FilterScript><filter name="Torus"/><filter name="Taubin Smooth">'
+        '<Param type="RichFloat" name="lambda" value="nonsense"/>'
+        '<Param type="RichFloat" name="mu" value="-0.2"/></filter></FilterScript>',
+        '<FilterScript><filter name="Torus"/><filter name="Unheard of"/></FilterScript>',
+        "<FilterScript><filter",
+        "",
+    ],
+    ids=["sample", "malformed parameter", "unknown filter", "truncated", "empty"],
+)
+def test_scripts_without_our_filters_behave_as_before(text, tmp_path):
+    script, saved = tmp_path / "script.mlx", tmp_path / "saved.mlx"
+    script.write_text(text)
+    told, results = [], []
+    for mode in ("without", "with"):
+        told.append(natively(NATIVE_SCRIPT, script, mode, saved))
+        # Qt writes attributes in an order that changes from run to run.
+        results.append(read(saved) if "<filter" in saved.read_text() else saved.read_text())
+    assert told[0] == told[1]
+    assert [sorted_params(result) for result in results[:1]] == [sorted_params(results[1])]
+
+
+def sorted_params(steps):
+    if isinstance(steps, str):
+        return steps
+    return [
+        (s.filter, [p._replace(details=tuple(sorted(p.details))) for p in s.params]) for s in steps
+    ]
+
+
+def test_native_calls_are_recorded_as_before(tmp_path):
+    """Only what has our steps is written by this package."""
+    ms = sphere()
+    ms.apply_coord_taubin_smoothing(lambda_=0.1234567)
+    path = tmp_path / "script.mlx"
+    ms.save_filter_script(str(path))
+    assert 'value="0.123457"' in path.read_text()
+
+
+# Broken scripts with our filters
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ('<FilterScript><filter name="Willmore measures">', "script.mlx: "),
+        ('<Script><filter name="Willmore measures"/></Script>', "script.mlx: "),
+    ],
+)
+def test_a_script_of_ours_that_cannot_be_read_is_an_error_and_the_old_one_stays(
+    text, message, bumpy, tmp_path, capfd
+):
+    bumpy.get_willmore_measures()
+    path = tmp_path / "script.mlx"
+    path.write_text(text)
+    with pytest.raises(pymeshlab.PyMeshLabException, match=message):
+        bumpy.load_filter_script(str(path))
+    assert "0: willmore_measures" in printed(bumpy, capfd)
+
+
+def test_nothing_runs_of_a_script_with_a_fault(bumpy, tmp_path):
+    before = state(bumpy)
+    path = tmp_path / "script.mlx"
+    path.write_text(
+        '<FilterScript><filter name="Willmore flipping optimization"/>'
+        '<filter name="Taubin smooth"/></FilterScript>'
+    )
+    bumpy.load_filter_script(str(path))
+    with pytest.raises(pymeshlab.PyMeshLabException, match="Taubin Smooth"):
+        bumpy.apply_filter_script()
+    assert state(bumpy) == before
+
+
+def test_a_percentage_is_one_of_the_mesh_at_hand_when_the_step_runs(tmp_path):
+    path = tmp_path / "script.mlx"
+    path.write_text(
+        to_xml([Step("Willmore measures")]).replace(
+            "</FilterScript>",
+            '<filter name="Transform: Scale, Normalize">'
+            '<Param name="axisX" type="RichFloat" value="3"/></filter>'
+            '<filter name="Remeshing: Isotropic Explicit Remeshing">'
+            '<Param name="Iterations" type="RichInt" value="2"/>'
+            '<Param name="TargetLen" type="RichAbsPerc" value="5%"/></filter></FilterScript>',
+        )
+    )
+    ms = sphere()
+    ms.load_filter_script(str(path))
+    ms.apply_filter_script()
+    called = sphere()
+    called.compute_matrix_from_scaling_or_normalization(axisx=3)
+    called.meshing_isotropic_explicit_remeshing(
+        iterations=2, targetlen=pymeshlab.PercentageValue(5)
+    )
+    assert state(ms) == state(called)

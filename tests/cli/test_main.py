@@ -1,6 +1,7 @@
 """The command line, as a person and as a pipe meet it."""
 
 import errno
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -12,6 +13,7 @@ from click.testing import CliRunner
 import meshlab_willmore
 from meshlab_willmore.cli import main
 
+COMMANDS = ["convert", "demo", "doctor", "filters", "flip", "lint", "measure", "run"]
 STORY = "meshlab_willmore.demo.story.tell"
 WHOLE_RUN = """
 import sys
@@ -25,10 +27,11 @@ import sys
 import meshlab_willmore
 package = set(sys.modules)
 from meshlab_willmore.cli import main
-try:
-    main(["demo", "--help"])
-except SystemExit as end:
-    assert end.code == 0
+for name in sys.argv[1:]:
+    try:
+        main([name, "--help"])
+    except SystemExit as end:
+        assert end.code == 0
 added = {name.partition(".")[0] for name in set(sys.modules) - package}
 print(sorted(added & {"numba", "llvmlite", "pymeshlab", "matplotlib", "scipy", "numpy"}))
 """
@@ -45,15 +48,34 @@ def fail_with(monkeypatch, error):
     monkeypatch.setattr(STORY, fail)
 
 
-@pytest.mark.parametrize("arguments", [["--help"], ["-h"], ["demo", "--help"], ["demo", "-h"]])
-def test_help_shows_examples(arguments):
-    result = run(*arguments)
+def examples(text):
+    """The lines below "Examples:", each of its own: click would run a paragraph together."""
+    return [line.strip() for line in text.partition("  Examples:\n")[2].splitlines()]
+
+
+@pytest.mark.parametrize("flag", ["--help", "-h"])
+@pytest.mark.parametrize("name", ["", *COMMANDS])
+def test_help_shows_examples(name, flag):
+    result = run(*filter(None, [name, flag]))
     assert result.exit_code == 0
-    # Click would run the lines of a paragraph together.
-    assert (
-        "\n    meshlab-willmore demo\n    meshlab-willmore demo --output pictures" in result.stdout
-    )
+    lines = examples(result.stdout)
+    assert len(lines) > 1
+    assert all(line.startswith(f"meshlab-willmore {name}") for line in lines)
     assert result.stdout.isascii()
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_the_examples_are_commands_that_there_are(name):
+    for line in examples(run(name, "--help").stdout):
+        words = shlex.split(line.partition(">")[0])[2:]
+        if "--help" not in words:
+            command = main.commands[name]
+            command.make_context(name, words, parent=click.Context(main))
+
+
+def test_every_command_is_in_the_help():
+    text = run("--help").stdout
+    assert all(f"\n  {name} " in text for name in COMMANDS)
 
 
 def test_help_names_the_exit_codes():
@@ -129,7 +151,10 @@ def test_a_reader_that_leaves_is_no_error_to_talk_about(monkeypatch):
 
 def test_help_imports_nothing_heavy():
     done = subprocess.run(
-        [sys.executable, "-W", "error", "-c", LIGHT_RUN], capture_output=True, text=True, check=True
+        [sys.executable, "-W", "error", "-c", LIGHT_RUN, *COMMANDS],
+        capture_output=True,
+        text=True,
+        check=True,
     )
     assert done.stdout.splitlines()[-1] == "[]"
     assert done.stderr == ""
@@ -173,3 +198,38 @@ def test_output_is_a_folder_here_by_default(monkeypatch, tmp_path):
     assert result.exit_code == 0
     assert folders == [Path("willmore-demo")]
     assert f"Written to {tmp_path / 'willmore-demo'}:" in result.stdout
+
+
+@pytest.mark.parametrize("arguments", [["--nope"], ["nope"], ["demo", "--nope"]])
+def test_wrong_use_is_one_line(arguments):
+    result = run(*arguments)
+    assert result.exit_code == 2
+    assert result.stderr.startswith("Error: ")
+    assert result.stderr.count("\n") == 1
+    assert "--help)" in result.stderr
+
+
+def test_without_a_command_there_is_help():
+    result = run()
+    assert result.exit_code == 2
+    assert "Commands:" in result.output
+
+
+def test_what_is_missing_leads_to_the_doctor(monkeypatch):
+    fail_with(monkeypatch, ImportError("libGL.so.1: cannot open shared object file"))
+    result = run("demo")
+    assert result.exit_code == 1
+    assert result.stderr == (
+        "Error: libGL.so.1: cannot open shared object file "
+        "('meshlab-willmore doctor' tells what is missing)\n"
+    )
+
+
+def test_as_a_module():
+    done = subprocess.run(
+        [sys.executable, "-m", "meshlab_willmore", "--version"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stdout == f"meshlab-willmore, version {meshlab_willmore.__version__}\n"

@@ -1,0 +1,95 @@
+"""How a command ends: in one line and with an exit code that scripts can trust."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import click
+
+from ..mlx.steps import ScriptError
+from . import stopping
+
+DOCTOR = " ('meshlab-willmore doctor' tells what is missing)"
+
+
+class FaultyScript(click.ClickException):
+    """A filter script with faults: a line for each, exit code 1."""
+
+    def __init__(self, error: ScriptError) -> None:
+        super().__init__(str(error))
+
+    def show(self, file: Any = None) -> None:
+        """Print the faults."""
+        for line in self.message.splitlines():
+            click.echo(f"Error: {line}", file=file, err=file is None)
+
+
+class WrongUse(click.ClickException):
+    """A command line that can't be right: one line, exit code 2."""
+
+    exit_code = 2
+
+
+class OneLineErrors(click.Group):
+    """A group whose commands end with one line and a telling exit code when something fails."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Read the options before the command's name."""
+        with _wrong_use_in_one_line():
+            return super().parse_args(ctx, args)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run the command; what click itself says stays, other errors become one line."""
+        with stopping.watched(ctx), _wrong_use_in_one_line():
+            return self._invoke(ctx)
+
+    def _invoke(self, ctx: click.Context) -> Any:
+        try:
+            return super().invoke(ctx)
+        except (click.ClickException, click.exceptions.Exit, click.Abort, BrokenPipeError):
+            raise
+        except Exception as error:
+            if ctx.meta.get("debug"):
+                raise
+            if isinstance(error, ScriptError):
+                raise FaultyScript(error) from error
+            hint = DOCTOR if isinstance(error, ImportError) else ""
+            raise click.ClickException(one_line(error) + hint) from error
+
+
+@contextmanager
+def _wrong_use_in_one_line() -> Iterator[None]:
+    try:
+        yield
+    except click.UsageError as error:
+        # Without a command there is help, not an error.
+        if type(error).__name__ == "NoArgsIsHelpError":
+            raise
+        hint = f" (see: {error.ctx.command_path} --help)" if error.ctx else ""
+        raise WrongUse(" ".join(error.format_message().split()) + hint) from error
+
+
+def one_line(error: BaseException) -> str:
+    """What an error says, in one line; its type where it says nothing."""
+    return " ".join(str(error).split()) or type(error).__name__
+
+
+def wrong_use(text: str) -> WrongUse:
+    """An error of whoever wrote the command line: exit code 2."""
+    return WrongUse(text)
+
+
+def _remember_debug(ctx: click.Context, _option: click.Parameter, value: bool) -> None:
+    # meta is shared by a group and its commands: the option works before and after the name.
+    ctx.meta["debug"] = ctx.meta.get("debug", False) or value
+
+
+debug_option = click.option(
+    "--debug",
+    is_flag=True,
+    expose_value=False,
+    callback=_remember_debug,
+    help="Show the whole traceback of an error.",
+)

@@ -1,0 +1,130 @@
+"""`meshlab-willmore filters`: which filters there are, and what each takes."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from .columns import in_columns
+from .errors import debug_option, wrong_use
+
+if TYPE_CHECKING:
+    from ..meshset.catalogue import Known, KnownParam
+
+EXAMPLES = """\b
+Examples:
+  meshlab-willmore filters
+  meshlab-willmore filters smooth
+  meshlab-willmore filters apply_coord_taubin_smoothing
+  meshlab-willmore filters "Taubin Smooth"
+"""
+WIDTH = 88
+
+
+@click.command("filters", short_help="List filters, or explain one.", epilog=EXAMPLES)
+@click.argument("name", required=False, nargs=-1)
+@debug_option
+def command(name: tuple[str, ...]) -> None:
+    """List all filters, those whose name has the words NAME in it, or explain the filter NAME.
+
+    Names are those of PyMeshLab, and those of MeshLab and its scripts. Scripts take either.
+    """
+    from ..meshset.catalogue import closest, everything, find
+
+    wanted = " ".join(name)
+    known = find(wanted) if wanted else None
+    if known is not None:
+        click.echo(_explained(known))
+        return
+    found = [k for k in everything() if _matches(k, wanted)]
+    if not found:
+        close = ", ".join(closest(wanted))
+        hint = f"; the closest are {close}" if close else ""
+        raise wrong_use(f"there is no filter {wanted!r}{hint}")
+    rows = [(k.name, k.meshlab_name) for k in sorted(found, key=lambda k: not k.ours)]
+    click.echo(in_columns(rows, left=2))
+
+
+def _matches(known: Known, words: str) -> bool:
+    text = f"{known.name} {known.meshlab_name}".lower()
+    return all(word in text for word in words.lower().split())
+
+
+def _explained(known: Known) -> str:
+    lines = [known.name, f"  in MeshLab: {known.meshlab_name}"]
+    lines += _wrapped(known.summary)
+    lines += ["", "Parameters: none"] if not known.params else ["", "Parameters:"]
+    values = _defaults(known)
+    tooltips = _tooltips(known)
+    for param in known.params:
+        lines += _parameter(param, values)
+        lines += _wrapped(tooltips.get(param.keyword, ""), "      ")
+    lines += _returned(known)
+    return "\n".join(lines)
+
+
+def _wrapped(text: str, indent: str = "  ") -> list[str]:
+    return textwrap.wrap(
+        text,
+        WIDTH,
+        initial_indent=indent,
+        subsequent_indent=indent,
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
+
+
+def _parameter(param: KnownParam, values: dict[str, Any]) -> list[str]:
+    other = f" (keyword {param.keyword})" if param.keyword != param.name else ""
+    line = f"  {param.name}{other}: {param.type}"
+    if param.required:
+        line += ", must be given"
+    elif param.keyword in values:
+        line += f", default {_shown(values[param.keyword], param)}"
+    choices = [f"      {i}: {choice}" for i, choice in enumerate(param.choices)]
+    return [line, *choices]
+
+
+def _shown(value: Any, param: KnownParam) -> str:
+    if param.choices and isinstance(value, int) and 0 <= value < len(param.choices):
+        return repr(param.choices[value])
+    plain = value.tolist() if hasattr(value, "tolist") else value
+    return f"{plain:g}" if isinstance(plain, float) else repr(plain)
+
+
+def _defaults(known: Known) -> dict[str, Any]:
+    """The defaults on a small mesh; some depend on the mesh, some filters want two."""
+    import pymeshlab
+
+    from ..meshset import native
+
+    ms = pymeshlab.MeshSet()
+    with native.muted():
+        try:
+            for _ in range(2):
+                native.apply(ms, "create_cube")
+            return dict(ms.filter_parameter_values(known.name))
+        except pymeshlab.PyMeshLabException:
+            return {}
+
+
+def _tooltips(known: Known) -> dict[str, str]:
+    from ..meshset.filters import BY_NAME
+
+    filter_ = BY_NAME.get(known.name)
+    return {p.name: p.tooltip for p in filter_.parameters} if filter_ else {}
+
+
+def _returned(known: Known) -> Sequence[str]:
+    from ..meshset.filters import BY_NAME
+
+    filter_ = BY_NAME.get(known.name)
+    if filter_ is None or not filter_.returns:
+        return []
+    lines = ["", "Returns:"]
+    for name, kind, text in filter_.returns:
+        lines += [f"  {name} ({kind})", *_wrapped(text, "      ")]
+    return lines

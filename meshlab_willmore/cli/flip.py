@@ -1,0 +1,122 @@
+"""`meshlab-willmore flip`: the flips on one mesh, with the filter's parameters as options."""
+
+from __future__ import annotations
+
+import sys
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import click
+
+from .errors import debug_option, one_line
+from .masks import is_part, mask_option
+from .spelling import SeveralValues
+
+if TYPE_CHECKING:
+    import pymeshlab
+
+    from ..meshset.parameters import Parameter
+
+FILTER = "meshing_edge_flip_by_willmore_optimization"
+EXAMPLES = """\b
+Examples:
+  meshlab-willmore flip scan.ply flipped.ply
+  meshlab-willmore flip part.stl flipped.stl --featuredeg 30
+  meshlab-willmore flip scan.ply flipped.ply --energy willmore --maxflips 1000
+  meshlab-willmore flip scan.obj flipped.ply -m vc wt --force
+"""
+
+
+class FlipCommand(SeveralValues):
+    """A command that has the filter's parameters as options; they are looked up when needed."""
+
+    several: ClassVar = {"-m": is_part, "--mask": is_part}
+
+    def get_params(self, ctx: click.Context) -> list[click.Parameter]:
+        """The command's own parameters, and the filter's before its options."""
+        own = super().get_params(ctx)
+        arguments = [p for p in own if isinstance(p, click.Argument)]
+        return [*arguments, *_filter_options(), *(p for p in own if p not in arguments)]
+
+
+@cache
+def _filter_options() -> tuple[click.Option, ...]:
+    from ..meshset.filters import BY_NAME
+
+    return tuple(_option(parameter) for parameter in BY_NAME[FILTER].parameters)
+
+
+def _option(parameter: Parameter) -> click.Option:
+    """An option without a default of its own: the filter knows what is best for the mesh."""
+    name = f"--{parameter.name}"
+    if parameter.type is bool:
+        return click.Option([f"{name}/--no-{parameter.name}"], default=None, help=_help(parameter))
+    kind: Any = click.Choice(parameter.choices) if parameter.choices else parameter.type
+    return click.Option([name], type=kind, help=_help(parameter))
+
+
+def _help(parameter: Parameter) -> str:
+    if callable(parameter.default):
+        return parameter.tooltip
+    value = parameter.shown_default().strip("'")
+    if parameter.type is bool:
+        value = parameter.name if parameter.default else f"no-{parameter.name}"
+    return f"{parameter.tooltip}  [default: {value}]"
+
+
+@click.command("flip", cls=FlipCommand, short_help="Flip the edges of a mesh.", epilog=EXAMPLES)
+@click.argument("source", metavar="IN")
+@click.argument("target", metavar="OUT", type=click.Path(path_type=Path))
+@mask_option
+@click.option("--force", is_flag=True, help="Replace files that are there already.")
+@debug_option
+def command(source: str, target: Path, parts: tuple[str, ...], force: bool, **given: Any) -> None:
+    """Flip edges of the mesh IN as long as its Willmore energy falls, and save it as OUT.
+
+    Vertices never move. The ending of OUT tells the format; it is there when it is whole.
+    """
+    from .inputs import expand
+    from .outputs import check_target
+    from .saving import Wish, save
+
+    path = _only(expand([source]), source)
+    check_target(target, force)
+    ms = _loaded(path)
+    returned = _flipped(ms, path, {k: v for k, v in given.items() if v is not None})
+    save(ms, target, Wish(parts, force, path.parent))
+    click.echo(
+        f"{path} -> {target}: {returned['flips']} flips, Willmore energy "
+        f"{returned['willmore_before']:.6g} -> {returned['willmore_after']:.6g}, "
+        f"{returned['seconds']:.1f} s"
+    )
+
+
+def _only(paths: list[Path], pattern: str) -> Path:
+    from .errors import wrong_use
+
+    if len(paths) > 1:
+        raise wrong_use(f"{pattern} stands for {len(paths)} files; flip takes one, run takes all")
+    return paths[0]
+
+
+def _loaded(path: Path) -> pymeshlab.MeshSet:
+    import pymeshlab
+
+    from .inputs import load
+
+    ms = pymeshlab.MeshSet()
+    load(ms, path)
+    return ms
+
+
+def _flipped(ms: pymeshlab.MeshSet, path: Path, given: dict[str, Any]) -> dict[str, Any]:
+    import pymeshlab
+
+    if sys.stderr.isatty():
+        click.echo("flipping (the first run compiles before, which takes a while)", err=True)
+    try:
+        return ms.apply_filter(FILTER, **given)
+    except pymeshlab.PyMeshLabException as error:
+        reason = one_line(error).partition("Details: ")[2] or one_line(error)
+        raise pymeshlab.PyMeshLabException(f"{path}: {reason}") from error

@@ -1,0 +1,60 @@
+"""`-m`: which data of a mesh are saved, in the short names of `meshlabserver`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import click
+
+from . import formats
+
+# Short name: PyMeshLab's keyword of save_current_mesh, and what it is.
+PARTS = {
+    "vc": ("save_vertex_color", "vertex colours"),
+    "vf": ("save_vertex_flag", "vertex flags"),
+    "vq": ("save_vertex_quality", "vertex quality"),
+    "vn": ("save_vertex_normal", "vertex normals"),
+    "vt": ("save_vertex_coord", "vertex texture coordinates"),
+    "vr": ("save_vertex_radius", "vertex radii"),
+    "fc": ("save_face_color", "face colours"),
+    "ff": ("save_face_flag", "face flags"),
+    "fq": ("save_face_quality", "face quality"),
+    "fn": ("save_face_normal", "face normals"),
+    "wc": ("save_wedge_color", "wedge colours"),
+    "wn": ("save_wedge_normal", "wedge normals"),
+    "wt": ("save_wedge_texcoord", "wedge texture coordinates"),
+}
+TEXTURED = frozenset({"vt", "wt"})
+
+mask_option = click.option(
+    "--mask",
+    "-m",
+    "parts",
+    multiple=True,
+    type=click.Choice(list(PARTS)),
+    metavar="PART...",
+    help="What is saved beside positions and faces, nothing else: v, f or w (vertex, face, wedge) "
+    "with c, f, q, n, t or r (colour, flags, quality, normal, texture, radius), such as: vc fq wt. "
+    "Without it: what PyMeshLab saves of itself.",
+)
+
+
+def is_part(word: str) -> bool:
+    """Whether a word is one of the short names."""
+    return word in PARTS
+
+
+def keywords(parts: Iterable[str], ending: str) -> dict[str, bool]:
+    """What ``save_current_mesh`` is told for a format; nothing if nothing was asked for."""
+    wanted = set(parts)
+    return {
+        keyword: part in wanted
+        for part, (keyword, _) in PARTS.items()
+        if wanted and formats.holds(ending, keyword)
+    }
+
+
+def not_held(parts: Iterable[str], ending: str) -> str:
+    """What was asked for and files with this ending have no place for, in words; or nothing."""
+    missing = [f"{PARTS[p][1]} ({p})" for p in parts if not formats.holds(ending, PARTS[p][0])]
+    return f".{ending} files hold no {' and no '.join(missing)}" if missing else ""

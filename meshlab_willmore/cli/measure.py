@@ -1,0 +1,102 @@
+"""`meshlab-willmore measure`: the totals of meshes."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import click
+
+from .columns import in_columns
+from .errors import debug_option, one_line
+from .inputs import expand, load
+
+EXAMPLES = """\b
+Examples:
+  meshlab-willmore measure scan.ply
+  meshlab-willmore measure before.ply after.ply
+  meshlab-willmore measure 'out/*.ply' --json > measures.json
+"""
+HEADER = ("file", "vertices", "faces", "W", "area", "K", "|K|", "M")
+MEASURES = (
+    "willmore_energy",
+    "area",
+    "gaussian_curvature",
+    "absolute_gaussian_curvature",
+    "absolute_mean_curvature",
+)
+LEGEND = (
+    "W: Willmore energy. K and |K|: Gaussian curvature and the sum of its absolute values.\n"
+    "M: absolute mean curvature, the sum of angle times length. Angles are in radians."
+)
+
+
+@click.command("measure", short_help="Print the totals of meshes.", epilog=EXAMPLES)
+@click.argument("files", metavar="IN...", nargs=-1, required=True)
+@click.option("--json", "as_json", is_flag=True, help="Print a JSON list for machines.")
+@debug_option
+def command(files: tuple[str, ...], as_json: bool) -> None:
+    """Print Willmore energy, area and curvatures of meshes as a table.
+
+    A file that can't be measured is named on the standard error; the others are measured, and the
+    exit code is 1 in the end.
+    """
+    paths = expand(files)
+    measured = _measure_all(paths)
+    if as_json:
+        click.echo(json.dumps([_for_json(row) for row in measured], indent=2))
+    elif measured:
+        click.echo(_table(measured))
+    failed = len(paths) - len(measured)
+    if failed:
+        click.get_current_context().exit(1)
+
+
+def _measure_all(paths: Iterable[Path]) -> list[dict[str, Any]]:
+    return [row for path in paths if (row := _measured_or_told(path))]
+
+
+def _measured_or_told(path: Path) -> dict[str, Any]:
+    """The totals of one file; nothing if it can't be measured, which is said."""
+    try:
+        return _measured(path)
+    except Exception as error:
+        if isinstance(error, ImportError) or click.get_current_context().meta.get("debug"):
+            raise
+        text = one_line(error).partition("Details: ")[2] or one_line(error)
+        click.echo(f"Error: {text if str(path) in text else f'{path}: {text}'}", err=True)
+        return {}
+
+
+def _measured(path: Path) -> dict[str, Any]:
+    import pymeshlab
+
+    ms = pymeshlab.MeshSet()
+    load(ms, path)
+    totals = ms.apply_filter("get_willmore_measures")
+    mesh = ms.current_mesh()
+    sizes = {"vertices": mesh.vertex_number(), "faces": mesh.face_number()}
+    return {"file": str(path), **sizes, **totals}
+
+
+def _for_json(row: dict[str, Any]) -> dict[str, Any]:
+    """JSON has no word for what is not a finite number."""
+    return {
+        key: None if isinstance(value, float) and not math.isfinite(value) else value
+        for key, value in row.items()
+    }
+
+
+def _table(measured: Iterable[dict[str, Any]]) -> str:
+    from ..report.table import significant
+
+    rows: list[tuple[str, ...]] = [HEADER]
+    for row in measured:
+        sizes = (row["file"], str(row["vertices"]), str(row["faces"]))
+        rows.append((*sizes, *(significant(row[name]) for name in MEASURES)))
+    lines = in_columns(rows).splitlines()
+    rule = "-" * max(map(len, lines))
+    return "\n".join([lines[0], rule, *lines[1:], rule, LEGEND])

@@ -1,0 +1,174 @@
+"""Saving a mesh so that it appears whole, with its material and textures, or not at all.
+
+PyMeshLab writes into a hidden folder beside the target, and what it wrote is renamed in the end:
+first the files beside the mesh, then the mesh.
+"""
+
+from __future__ import annotations
+
+import filecmp
+import os
+import shutil
+import tempfile
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path, PurePosixPath
+from typing import TYPE_CHECKING, NamedTuple
+
+import click
+
+from . import textures
+from .masks import TEXTURED, keywords, not_held
+
+if TYPE_CHECKING:
+    import pymeshlab
+
+# Where a writer had to stop, not even so much more goes into its file.
+_ROOM = 65536
+
+# A file name takes 255 bytes; a letter up to four.
+_LONGEST_STEM = 40
+
+
+class Wish(NamedTuple):
+    """How a mesh is to be saved.
+
+    Attributes
+    ----------
+    parts : tuple of str
+        The short names of `masks`; empty for what PyMeshLab saves of itself.
+    force : bool
+        Replace files that are there.
+    origin : Path or None
+        The folder of the input: textures that are still as they were there are copied.
+    """
+
+    parts: tuple[str, ...] = ()
+    force: bool = False
+    origin: Path | None = None
+
+
+def save(ms: pymeshlab.MeshSet, path: Path, wish: Wish) -> list[Path]:
+    """Save the current mesh of `ms`; returns the files that were written, the mesh first.
+
+    Raises
+    ------
+    OSError
+        In one line: the file, and what is wrong. What was there before is as it was.
+    """
+    note = not_held(wish.parts, path.suffix.lstrip("."))
+    if note:
+        click.echo(f"Note: {note}", err=True)
+    with _beside(path) as folder:
+        images = _textures(ms, path, wish)
+        draft = _inside(folder, images) / path.name
+        _write(ms, draft, path, wish)
+        for name, image in images.items():
+            folders = (path.parent, wish.origin) if wish.origin else (path.parent,)
+            textures.write(image, draft.parent / name, [place / name for place in folders])
+        moves = _moves(folder, draft, path)
+        for source, target in moves:
+            _check_whole(source, target)
+        _check_free(moves, path, wish.force)
+        _place(moves)
+    return [target for _, target in reversed(moves)]
+
+
+@contextmanager
+def _beside(path: Path) -> Iterator[Path]:
+    try:
+        name = tempfile.mkdtemp(prefix=f".{path.stem[:_LONGEST_STEM]}.", dir=path.parent)
+    except OSError as error:
+        raise OSError(f"cannot write {path}: {error.strerror}") from error
+    try:
+        yield Path(name)
+    finally:
+        shutil.rmtree(name, ignore_errors=True)
+
+
+def _textures(ms: pymeshlab.MeshSet, path: Path, wish: Wish) -> dict[str, pymeshlab.Image]:
+    wanted = not wish.parts or TEXTURED & set(wish.parts)
+    return textures.of(ms, path.suffix.lstrip(".")) if wanted else {}
+
+
+def _inside(folder: Path, names: Iterable[str]) -> Path:
+    """A folder so deep that ``..`` in the name of a texture stays inside `folder`."""
+    upwards = max((PurePosixPath(name).parts.count("..") for name in names), default=0)
+    deep = folder.joinpath(*["mesh"] * upwards)
+    deep.mkdir(parents=True, exist_ok=True)
+    return deep
+
+
+def _write(ms: pymeshlab.MeshSet, draft: Path, path: Path, wish: Wish) -> None:
+    """Write the current mesh at `draft`; errors call it `path`."""
+    from pymeshlab import PyMeshLabException
+
+    from ..meshset import native
+
+    native.forget_failures()
+    flags = keywords(wish.parts, path.suffix.lstrip("."))
+    reason = ""
+    try:
+        with native.muted():
+            ms.save_current_mesh(str(draft), save_textures=False, **flags)
+    except (PyMeshLabException, RuntimeError) as error:
+        reason = str(error).strip().splitlines()[-1]
+    if not draft.is_file() or draft.stat().st_size == 0:
+        reason = reason or f"PyMeshLab wrote no {path.suffix} file"
+    else:
+        _check_whole(draft, path)
+    if reason:
+        raise OSError(f"cannot write {path}: {reason}")
+
+
+def _moves(folder: Path, draft: Path, path: Path) -> list[tuple[Path, Path]]:
+    """Each file that was written and its place; the mesh is last."""
+    others = [p for p in sorted(folder.rglob("*")) if p.is_file() and p != draft]
+    moves = [
+        (source, Path(os.path.normpath(path.parent / os.path.relpath(source, draft.parent))))
+        for source in others
+    ]
+    return [*moves, (draft, path)]
+
+
+def _check_whole(source: Path, target: Path) -> None:
+    """Raise if the writer may have run out of room: many of PyMeshLab's don't tell.
+
+    One that stopped early left no room behind what it wrote.
+    """
+    try:
+        with source.open("ab") as file:
+            size = file.tell()
+            file.write(bytes(_ROOM))
+            file.flush()
+            os.fsync(file.fileno())
+            file.truncate(size)
+    except OSError as error:
+        raise OSError(f"cannot write {target}: {error.strerror}") from error
+
+
+def _check_free(moves: list[tuple[Path, Path]], path: Path, force: bool) -> None:
+    """Raise if a file of somebody else would be replaced without `force`."""
+    for source, target in moves:
+        if target.is_file() and filecmp.cmp(source, target, shallow=False) and target != path:
+            continue
+        if target.exists() and not force:
+            raise FileExistsError(f"cannot write {path}: {target} is there; --force replaces it")
+
+
+def _place(moves: list[tuple[Path, Path]]) -> None:
+    """Rename all, or take back what is new."""
+    from ..meshset import interrupts
+
+    placed: list[Path] = []
+    with interrupts.deferred():
+        try:
+            for source, target in moves:
+                target.parent.mkdir(parents=True, exist_ok=True)
+                is_new = not target.exists()
+                os.replace(source, target)
+                placed += [target] if is_new else []
+        except OSError as error:
+            for new in placed:
+                new.unlink(missing_ok=True)
+            raise OSError(f"cannot write {target}: {error.strerror}") from error

@@ -1,0 +1,86 @@
+"""What the commands' tests share: a way to call them, meshes in files, scripts."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pymeshlab
+import pytest
+from click.testing import CliRunner
+
+from meshlab_willmore.cli import main
+from tests import meshes
+
+SAMPLES = Path(pymeshlab.__file__).parent / "tests" / "sample_meshes"
+
+
+@pytest.fixture(autouse=True)
+def _folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def call(*arguments):
+    """Run a command in this process."""
+    return CliRunner().invoke(main, [str(argument) for argument in arguments])
+
+
+def spawn(*arguments, **given):
+    """Run a command in a process of its own."""
+    return subprocess.run(
+        [sys.executable, "-m", "meshlab_willmore", *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        check=False,
+        **given,
+    )
+
+
+def cube_file(path="cube.ply"):
+    """A cube with six flips to make, as a file."""
+    ms = pymeshlab.MeshSet()
+    ms.add_mesh(pymeshlab.Mesh(*meshes.cube()))
+    ms.save_current_mesh(str(path))
+    return Path(path)
+
+
+def script_file(*steps, path="script.mlx"):
+    """A script of (filter, {parameter: (type, value)}) steps."""
+    lines = ["<!DOCTYPE FilterScript>", "<FilterScript>"]
+    for name, params in steps:
+        lines.append(f' <filter name="{name}">')
+        lines += [f'  <Param name="{p}" type="{t}" value="{v}"/>' for p, (t, v) in params.items()]
+        lines.append(" </filter>")
+    Path(path).write_text("\n".join([*lines, "</FilterScript>"]))
+    return Path(path)
+
+
+FLIP = ("Willmore flipping optimization", {})
+TAUBIN = ("Taubin Smooth", {"stepSmoothNum": ("RichInt", 2)})
+
+
+class Surface(NamedTuple):
+    """Arrays: a Mesh would outlive its set."""
+
+    vertices: np.ndarray
+    faces: np.ndarray
+
+
+def loaded(path):
+    """The only mesh of a file."""
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(path))
+    mesh = ms.current_mesh()
+    return Surface(mesh.vertex_matrix(), mesh.face_matrix())
+
+
+def same_mesh(left, right):
+    """Whether two files hold the same positions and faces, bit for bit."""
+    return all(map(np.array_equal, loaded(left), loaded(right)))
+
+
+def listing(folder="."):
+    """All that is in a folder, hidden files too."""
+    return sorted(os.listdir(folder))

@@ -1,0 +1,219 @@
+"""`doctor`: what is found on a machine, and the command that mends it."""
+
+import json
+import shutil
+import sys
+import tempfile
+
+import pytest
+
+from meshlab_willmore.cli import checks, probe
+from meshlab_willmore.cli.checks import Finding
+from meshlab_willmore.meshset import catalogue
+
+from .conftest import call
+
+NEEDS_LINUX = pytest.mark.skipif(sys.platform != "linux", reason="shared libraries of Linux")
+APT = "apt-get install libgl1 libopengl0"
+
+
+@pytest.fixture
+def on_debian(monkeypatch):
+    monkeypatch.setattr(shutil, "which", lambda name: name if name == "apt-get" else None)
+
+
+def answering(monkeypatch, values, printed=""):
+    monkeypatch.setattr(probe, "ask", lambda _: probe.Answer(values, printed))
+
+
+# The command
+
+
+def test_a_fit_machine(monkeypatch):
+    monkeypatch.setattr(checks, "ALL", (lambda: Finding("one", True, "is fine"),))
+    result = call("doctor")
+    assert (result.exit_code, result.stdout) == (0, "ok   one: is fine\nThis machine is fit.\n")
+
+
+def test_a_problem_has_its_cure(monkeypatch):
+    bad = Finding("two", False, "is gone", "apt-get install two")
+    monkeypatch.setattr(checks, "ALL", (lambda: Finding("one", True, "is fine"), lambda: bad))
+    result = call("doctor")
+    assert (result.exit_code, result.stdout) == (
+        1,
+        "ok   one: is fine\nBAD  two: is gone\n     mend it: apt-get install two\n1 of 2 not fit\n",
+    )
+    result = call("doctor", "--json")
+    assert result.exit_code == 1
+    assert json.loads(result.stdout) == {
+        "fit": False,
+        "findings": [
+            {"name": "one", "ok": True, "text": "is fine", "cure": ""},
+            {"name": "two", "ok": False, "text": "is gone", "cure": "apt-get install two"},
+        ],
+    }
+
+
+@pytest.mark.heavy
+def test_this_machine_is_fit():
+    result = call("doctor", "--json")
+    assert result.exit_code == 0, result.stdout
+    report = json.loads(result.stdout)
+    assert report["fit"] is True
+    assert len(report["findings"]) == len(checks.ALL)
+    numba = next(f for f in report["findings"] if f["name"] == "Numba")
+    assert "threading layer " in numba["text"]
+
+
+# PyMeshLab
+
+
+@pytest.fixture
+def without_gl(tmp_path, monkeypatch):
+    """A machine without libGL: what the import then says."""
+    package = tmp_path / "pymeshlab"
+    package.mkdir()
+    (package / "__init__.py").write_text(
+        "raise ImportError('libGL.so.1: cannot open shared object file: No such file')"
+    )
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+
+
+def test_a_missing_library_is_named(without_gl, on_debian):
+    finding = checks.pymeshlab()
+    assert finding == Finding(
+        "PyMeshLab", False, "can't be loaded: libGL.so.1 is missing or broken", APT
+    )
+    finding = checks.filters()
+    assert not finding.ok
+    assert "libGL.so.1" in finding.text
+
+
+@NEEDS_LINUX
+def test_plugins_that_did_not_load_and_their_filters(tmp_path, monkeypatch, on_debian):
+    if catalogue.version() != catalogue.recorded_version():
+        pytest.skip("other versions have other plugins")
+    (tmp_path / "libOpenGL.so.0").write_text("no library")
+    monkeypatch.setenv("LD_LIBRARY_PATH", str(tmp_path))
+    finding = checks.pymeshlab()
+    assert (finding.ok, finding.cure) == (False, APT)
+    assert "filter_meshing" in finding.text
+    assert "(libOpenGL.so.0 can't be loaded)" in finding.text
+    finding = checks.filters()
+    assert (finding.ok, finding.cure) == (False, APT)
+    assert "of PyMeshLab's filters are gone: " in finding.text
+    assert finding.text.endswith(" more")
+
+
+def test_without_a_known_installer_all_commands_are_told(without_gl, monkeypatch):
+    monkeypatch.setattr(shutil, "which", lambda _: None)
+    assert checks.pymeshlab().cure == f"{APT} or dnf install mesa-libGL libglvnd-opengl"
+
+
+def test_filters_of_another_version_are_no_fault(monkeypatch):
+    values = {"registered": True, "missing": ["a"], "version": "2023.12", "recorded": "2025.7"}
+    answering(monkeypatch, values)
+    finding = checks.filters()
+    assert finding.ok
+    assert finding.text.endswith(
+        "1 of PyMeshLab's filters are gone: a (this is PyMeshLab 2023.12; the list is that of "
+        "2025.7)"
+    )
+    answering(monkeypatch, {**values, "version": "2025.7"})
+    assert not checks.filters().ok
+
+
+def test_another_failure_of_the_import(monkeypatch):
+    answering(monkeypatch, {}, "Traceback\nImportError: numpy is too old")
+    finding = checks.pymeshlab()
+    assert not finding.ok
+    assert finding.text == "can't be loaded: ImportError: numpy is too old"
+    assert "pip install --force-reinstall" in finding.cure
+
+
+# Numba
+
+
+def test_numba_that_cannot_compile(monkeypatch):
+    monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
+    answering(monkeypatch, {}, "OSError: no LLVM")
+    finding = checks.threads()
+    assert (finding.ok, finding.text) == (False, "can't compile: OSError: no LLVM")
+    assert finding.cure.endswith("-m pip install --upgrade numba")
+
+
+def test_a_compiler_that_is_switched_off(monkeypatch):
+    monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")
+    assert checks.threads().cure == "unset NUMBA_DISABLE_JIT"
+    assert checks.cache().ok
+
+
+def test_no_folder_for_the_cache(monkeypatch):
+    monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
+    answering(monkeypatch, {"folder": None, "compiled": 0})
+    finding = checks.cache()
+    assert not finding.ok
+    assert finding.cure.startswith("export NUMBA_CACHE_DIR=")
+
+
+def test_a_cache_folder_tells_whether_anything_is_in_it(monkeypatch, tmp_path):
+    monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
+    answering(monkeypatch, {"folder": str(tmp_path / "later"), "compiled": 0})
+    assert checks.cache().text.endswith("(nothing in it yet: the first run compiles)")
+    answering(monkeypatch, {"folder": str(tmp_path), "compiled": 3})
+    assert checks.cache() == Finding("Numba's cache", True, f"{tmp_path} (3 compiled)")
+    file = tmp_path / "file"
+    file.touch()
+    answering(monkeypatch, {"folder": str(file), "compiled": 3})
+    assert not checks.cache().ok
+
+
+# The rest
+
+
+def test_an_old_python(monkeypatch):
+    monkeypatch.setattr(sys, "version_info", (3, 9, 2))
+    assert checks.python() == Finding(
+        "Python", False, "3.9.2 is too old", "install Python 3.10 or later"
+    )
+
+
+def test_a_package_that_is_not_installed(monkeypatch):
+    monkeypatch.setattr(checks, "LIBRARIES", ("numpy", "surely-no-such-package"))
+    finding = checks.libraries()
+    assert (finding.ok, finding.text) == (False, "surely-no-such-package not installed")
+    assert finding.cure.endswith("-m pip install surely-no-such-package")
+
+
+def test_little_room_for_temporary_files(monkeypatch, tmp_path):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    usage = shutil.disk_usage(tmp_path)
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: usage._replace(free=50 * 2**20))
+    assert checks.temporary().text == f"{tmp_path}, 50 MiB free: little"
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: usage._replace(free=500 * 2**20))
+    assert checks.temporary() == Finding("temporary files", True, f"{tmp_path}, 500 MiB free")
+    file = tmp_path / "file"
+    file.touch()
+    monkeypatch.setattr(tempfile, "tempdir", str(file))
+    assert checks.temporary().text == f"{file}: Not a directory"
+
+
+# Asking
+
+
+def test_an_answer_among_noise():
+    answer = probe.ask("print('Warning: noise', end='')\nanswer = {'a': 1}")
+    assert answer == probe.Answer({"a": 1}, "Warning: noise")
+
+
+def test_a_process_that_dies_has_no_answer():
+    assert probe.ask("import os\nos.abort()").values == {}
+    answer = probe.ask("raise ValueError('why')")
+    assert answer.values == {}
+    assert answer.printed.endswith("ValueError: why")
+
+
+def test_a_process_that_never_answers(monkeypatch):
+    monkeypatch.setattr(probe, "_SECONDS", 0.2)
+    answer = probe.ask("import time\ntime.sleep(60)")
+    assert answer == probe.Answer({}, "no answer in 0.2 seconds")

@@ -1,0 +1,65 @@
+"""`filters`: all of them, some of them, one of them."""
+
+import pymeshlab
+import pytest
+
+from meshlab_willmore.meshset.filters import FILTERS
+
+from .conftest import call
+
+FLIP = "meshing_edge_flip_by_willmore_optimization"
+
+
+def test_the_list_has_every_filter_ours_first():
+    result = call("filters")
+    names = [line.split()[0] for line in result.stdout.splitlines()]
+    ours = sorted(filter_.name for filter_ in FILTERS)
+    assert names[: len(ours)] == ours
+    assert names[len(ours) :] == sorted(set(pymeshlab.filter_list()) - set(ours))
+    assert "Taubin Smooth" in result.stdout
+
+
+def test_words_narrow_the_list():
+    lines = call("filters", "smooth", "Laplacian").stdout.splitlines()
+    assert len(lines) > 1
+    assert all("laplacian" in line.lower() and "smooth" in line.lower() for line in lines)
+
+
+@pytest.mark.parametrize("name", ["apply_coord_taubin_smoothing", "Taubin Smooth"])
+def test_a_native_filter_is_explained(name):
+    result = call("filters", name)
+    assert result.stdout.splitlines()[:2] == [
+        "apply_coord_taubin_smoothing",
+        "  in MeshLab: Taubin Smooth",
+    ]
+    assert "  stepSmoothNum (keyword stepsmoothnum): RichInt, default 10\n" in result.stdout
+    assert "filter_list.html#apply_coord_taubin_smoothing" in result.stdout
+
+
+def test_ours_are_explained_with_all_that_the_filter_knows():
+    text = call("filters", FLIP).stdout
+    words = " ".join(text.split())
+    (filter_,) = (filter_ for filter_ in FILTERS if filter_.name == FLIP)
+    for parameter in filter_.parameters:
+        assert f"  {parameter.name}: Rich" in text
+        assert parameter.tooltip in words
+        assert all(f": {choice}\n" in text for choice in parameter.choices)
+    for name, kind, meaning in filter_.returns:
+        assert f"{name} ({kind}) {meaning}" in words
+    assert "featuredeg: RichFloat, default 180\n" in text
+    assert "energy: RichEnum, default 'virtual willmore'\n" in text
+
+
+def test_an_enum_of_a_native_filter_has_its_choices():
+    text = call("filters", "generate_resampled_uniform_mesh").stdout
+    assert "CellSize (keyword cellsize): RichAbsPerc, default " in text
+    text = call("filters", "meshing_repair_non_manifold_edges").stdout
+    assert "      0: Remove Faces\n      1: Split Vertices\n" in text
+
+
+def test_an_unknown_name_gets_the_closest():
+    result = call("filters", "Taubn", "Smooth")
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert result.stderr.startswith("Error: there is no filter 'Taubn Smooth'; the closest are")
+    assert "Taubin Smooth" in result.stderr
+    assert result.stderr.count("\n") == 1

@@ -1,0 +1,109 @@
+"""`flip`: one mesh, and the filter's parameters as options."""
+
+import re
+from pathlib import Path
+
+import pymeshlab
+import pytest
+
+from meshlab_willmore.cli import flip as flip_module
+from meshlab_willmore.meshset import filters
+from meshlab_willmore.meshset.parameters import Parameter
+
+from .conftest import call, cube_file, listing, same_mesh
+
+
+@pytest.fixture
+def cube():
+    return cube_file()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "given"),
+    [
+        ([], {}),
+        (["--energy", "willmore"], {"energy": "willmore"}),
+        (["--no-monotone", "--maxflips", "4"], {"monotone": False, "maxflips": 4}),
+        (["--featuredeg", "30"], {"featuredeg": 30.0}),
+    ],
+)
+def test_flips_as_the_filter_does(cube, arguments, given):
+    result = call("flip", cube, "out.ply", *arguments)
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh("cube.ply")
+    returned = ms.meshing_edge_flip_by_willmore_optimization(**given)
+    ms.save_current_mesh("expected.ply")
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert same_mesh("out.ply", "expected.ply")
+    assert re.fullmatch(
+        rf"cube\.ply -> out\.ply: {returned['flips']} flips, Willmore energy 45\.757 -> "
+        rf"{returned['willmore_after']:.6g}, \d+\.\d s\n",
+        result.stdout,
+    )
+
+
+def test_help_has_each_parameter_with_its_tooltip_and_default():
+    text = " ".join(call("flip", "--help").stdout.split())
+    for parameter in filters.BY_NAME[flip_module.FILTER].parameters:
+        assert f"--{parameter.name}" in text
+        assert parameter.tooltip.split(".")[0] in text
+    assert "[default: virtual willmore]" in text
+    assert "--monotone / --no-monotone" in text
+    assert "meshlab-willmore flip scan.ply flipped.ply" in text
+
+
+def test_a_new_parameter_becomes_an_option(monkeypatch, cube):
+    filter_ = filters.BY_NAME[flip_module.FILTER]
+    new = Parameter("newword", int, 7, "New", "Something new.")
+    got = {}
+
+    def note(_ms, values):
+        got.update(values)
+        return {"flips": 0, "willmore_before": 0.0, "willmore_after": 0.0, "seconds": 0.0}, ""
+
+    changed = filter_._replace(parameters=(*filter_.parameters, new), run=note)
+    monkeypatch.setitem(filters.BY_NAME, flip_module.FILTER, changed)
+    flip_module._filter_options.cache_clear()
+    try:
+        assert "Something new.  [default: 7]" in call("flip", "--help").stdout
+        assert call("flip", cube, "out.ply", "--newword", "9").exit_code == 0
+    finally:
+        flip_module._filter_options.cache_clear()
+    assert got["newword"] == 9
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "line"),
+    [
+        (["cube.ply"], 2, "Missing argument 'OUT'."),
+        (["cub.ply", "out.ply"], 2, "there is no file cub.ply; there is cube.ply"),
+        (["*.ply", "out.ply"], 2, "*.ply stands for 2 files; flip takes one, run takes all"),
+        (["cube.ply", "two.ply"], 2, "two.ply is there already; --force replaces it"),
+        (["cube.ply", "out.foo"], 2, "the format of out.foo is unknown: PyMeshLab writes no .foo"),
+        (["cube.ply", "o.ply", "--energy", "x"], 2, "Invalid value for '--energy': 'x' is not one"),
+        (["cube.ply", "o.ply", "--maxflips", "x"], 2, "Invalid value for '--maxflips': 'x' is not"),
+        (["cube.ply", "o.ply", "--maxflips", "-5"], 1, "cube.ply: maxflips must be -1 (no limit)"),
+        (["points.xyz", "o.ply"], 1, "points.xyz: The current mesh has no faces, it is a point"),
+    ],
+)
+def test_errors_are_one_line(cube, arguments, code, line):
+    cube_file("two.ply")
+    Path("points.xyz").write_text("0 0 0\n1 0 0\n0 1 0\n")
+    before = listing()
+    result = call("flip", *arguments)
+    assert (result.exit_code, result.stdout) == (code, "")
+    assert result.stderr.startswith(f"Error: {line}")
+    assert result.stderr.count("\n") == 1
+    assert listing() == before
+
+
+def test_force_and_mask(cube):
+    Path("out.ply").write_text("mine")
+    assert call("flip", cube, "out.ply", "--force", "-m", "vn", "vq").exit_code == 0
+    assert b"property double nx" in Path("out.ply").read_bytes()
+
+
+def test_in_place_with_force(cube):
+    assert call("flip", cube, cube, "--force").exit_code == 0
+    assert listing() == ["cube.ply"]
+    assert call("flip", cube, "again.ply").stdout.startswith("cube.ply -> again.ply: 0 flips")

@@ -1,0 +1,63 @@
+"""`measure`: a table, or JSON."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from meshlab_willmore import measures
+from meshlab_willmore.cli import measure as measure_module
+from tests import meshes
+
+from .conftest import SAMPLES, call, cube_file, spawn
+
+
+def test_table_is_laid_out_exactly():
+    cube_file()
+    result = call("measure", "cube.ply", SAMPLES / "bone.ply")
+    assert (result.exit_code, result.stderr) == (0, "")
+    header, rule, cube, bone, *_ = result.stdout.splitlines()
+    assert header.split() == ["file", "vertices", "faces", "W", "area", "K", "|K|", "M"]
+    assert set(rule) == {"-"}
+    assert cube.split()[:5] == ["cube.ply", "14", "24", "45.7570", "6.22709"]
+    assert bone.split()[1:3] == ["1872", "3022"]
+    # Figures end below each other.
+    assert header.index("faces") + len("faces") == cube.index(" 24 ") + len(" 24")
+    assert "W: Willmore energy." in result.stdout
+
+
+def test_json_is_all_there_is_on_the_output():
+    cube_file()
+    done = spawn("measure", "cube.ply", "--json")
+    assert (done.returncode, done.stderr) == (0, "")
+    (row,) = json.loads(done.stdout)
+    totals = measures(*meshes.cube())._asdict()
+    assert row == {"file": "cube.ply", "vertices": 14, "faces": 24, **totals}
+
+
+def test_a_file_that_cannot_be_measured_does_not_stop_the_others():
+    cube_file()
+    Path("bad.ply").write_text("no mesh")
+    Path("points.xyz").write_text("0 0 0\n1 0 0\n0 1 0\n")
+    result = call("measure", "bad.ply", "cube.ply", "points.xyz", "--json")
+    assert result.exit_code == 1
+    assert [row["file"] for row in json.loads(result.stdout)] == ["cube.ply"]
+    first, second = result.stderr.splitlines()
+    assert first == "Error: cannot read bad.ply: Header not found"
+    assert second.startswith("Error: points.xyz: The current mesh has no faces")
+
+
+def test_what_is_no_number_is_null_in_json():
+    row = {"file": "a", "faces": 1, "area": float("inf"), "W": float("nan"), "K": 1.5}
+    shown = {"file": "a", "faces": 1, "area": None, "W": None, "K": 1.5}
+    assert measure_module._for_json(row) == shown
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [([], "Missing argument 'IN...'."), (["no.ply"], "there is no file no.ply")],
+)
+def test_wrong_use(arguments, line):
+    result = call("measure", *arguments)
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert result.stderr.startswith(f"Error: {line}")

@@ -1,0 +1,363 @@
+"""`run`: scripts on files, one after the other, and what is said about it."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pymeshlab
+import pytest
+
+from meshlab_willmore.cli import playing
+
+from .conftest import (
+    FLIP,
+    SAMPLES,
+    TAUBIN,
+    call,
+    cube_file,
+    listing,
+    loaded,
+    same_mesh,
+    script_file,
+    spawn,
+)
+
+
+def expected(path, source="cube.ply"):
+    """What the script of FLIP and TAUBIN makes, by calls in Python."""
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(source))
+    ms.meshing_edge_flip_by_willmore_optimization()
+    ms.apply_coord_taubin_smoothing(stepsmoothnum=2)
+    ms.save_current_mesh(str(path))
+    return path
+
+
+@pytest.fixture
+def script():
+    return script_file(FLIP, TAUBIN)
+
+
+@pytest.fixture
+def cube():
+    return cube_file()
+
+
+def test_output_is_what_the_same_calls_in_python_make(script, cube):
+    result = call("run", script, "-i", cube, "-o", "out.ply")
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert re.fullmatch(
+        r"cube\.ply -> out\.ply \(14 vertices, 24 faces\): 2 steps, \d+\.\d s\n", result.stdout
+    )
+    assert same_mesh("out.ply", expected("expected.ply"))
+    assert listing() == ["cube.ply", "expected.ply", "out.ply", "script.mlx"]
+
+
+def test_in_a_process_of_its_own_it_prints_a_line_and_nothing_else(script, cube):
+    done = spawn("run", script, "-i", cube, "-o", "out.ply")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert re.fullmatch(r"cube\.ply -> out\.ply \(.*\): 2 steps, .* s\n", done.stdout)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["-s", "script.mlx", "-i", "cube.ply", "-o", "out.ply"],
+        ["-i", "cube.ply", "script.mlx", "-o", "out.ply"],
+        ["-i", "cube.ply", "-o", "out.ply", "-m", "vc", "vn", "script.mlx"],
+        ["--output", "out.ply", "--input", "cube.ply", "--script", "script.mlx"],
+    ],
+)
+def test_options_in_any_order_as_meshlabserver_took_them(script, cube, arguments):
+    assert call("run", *arguments).exit_code == 0
+    assert same_mesh("out.ply", expected("expected.ply"))
+
+
+# Several inputs
+
+
+def test_several_inputs_have_an_output_each(script, cube):
+    cube_file("other.ply")
+    Path("out").mkdir()
+    result = call("run", script, "-i", "*.ply", "-o", "out/{index:02}-{name}_flipped.{ext}")
+    assert result.exit_code == 0
+    assert listing("out") == ["01-cube_flipped.ply", "02-other_flipped.ply"]
+    assert [line.split(" -> ")[0] for line in result.stdout.splitlines()] == [
+        "cube.ply",
+        "other.ply",
+    ]
+
+
+def test_an_input_that_fails_does_not_stop_the_others(script, cube):
+    Path("bad.ply").write_text("no mesh")
+    cube_file("last.ply")
+    arguments = ["run", script, "-i", cube, "bad.ply", "last.ply", "-o", "{name}.stl"]
+    result = call(*arguments)
+    assert result.exit_code == 1
+    assert result.stderr == (
+        "Error: cannot read bad.ply: Header not found\n"
+        "Error: 1 of 3 inputs failed; the others are done\n"
+    )
+    assert Path("cube.stl").exists()
+    assert Path("last.stl").exists()
+
+
+def test_stop_ends_with_the_first_that_fails(script, cube):
+    Path("bad.ply").write_text("no mesh")
+    result = call("run", script, "-i", "bad.ply", cube, "-o", "{name}.stl", "--stop")
+    assert (result.exit_code, result.stdout) == (1, "")
+    assert result.stderr == "Error: cannot read bad.ply: Header not found\n"
+    assert not Path("cube.stl").exists()
+
+
+def test_layers_are_loaded_into_one_set_and_saved_in_their_order(cube):
+    other = SAMPLES / "bone.ply"
+    script = script_file(FLIP, ("Transform: Translate, Center, set Origin", {}))
+    result = call("run", script, "-i", cube, other, "--layers", "-o", "a.ply", "-o", "b.ply")
+    assert result.exit_code == 0, result.stderr
+    # The flipped first layer is a new one to PyMeshLab, but stays the first of the script.
+    assert len(loaded("a.ply").faces) == 24
+    assert not np.array_equal(loaded("a.ply").faces, loaded(cube).faces)
+    assert np.array_equal(loaded("b.ply").faces, loaded(other).faces)
+
+
+def test_more_outputs_than_layers(script, cube):
+    result = call("run", script, "-i", cube, "-o", "a.ply", "-o", "b.ply")
+    assert result.exit_code == 1
+    assert result.stderr == "Error: 2 outputs, but the script leaves 1 layer\n"
+    assert not Path("a.ply").exists()
+
+
+# Scripts without input, without output, without mesh
+
+
+def test_a_script_that_makes_its_own_mesh_needs_no_input():
+    script = script_file(("Tetrahedron", {}), FLIP)
+    result = call("run", script, "-o", "own.ply")
+    assert result.exit_code == 0
+    assert result.stdout.startswith("no input -> own.ply (4 vertices, 4 faces): 2 steps")
+    assert len(loaded("own.ply").faces) == 4
+
+
+def test_a_script_that_needs_a_mesh_is_refused_without_one(script):
+    result = call("run", script, "-o", "own.ply")
+    assert result.exit_code == 1
+    assert result.stderr.startswith("Error: script.mlx: step 1 (Willmore flipping optimization): ")
+    assert listing() == ["script.mlx"]
+
+
+def test_without_output_the_script_runs_and_nothing_is_saved(script, cube):
+    result = call("run", script, "-i", cube)
+    assert result.exit_code == 0
+    assert result.stdout.startswith("cube.ply -> not saved (no -o): 2 steps")
+    assert listing() == ["cube.ply", "script.mlx"]
+
+
+# What is found before the first step
+
+
+def no_step(monkeypatch):
+    def fail(*_arguments):
+        raise AssertionError("a step ran")
+
+    monkeypatch.setattr(playing, "play", fail)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        (["-i", "cube.ply"], "there is no script; name one, such as: run clean.mlx"),
+        (["script.mlx", "-s", "script.mlx"], "name the script once"),
+        (["scrpt.mlx"], "there is no filter script scrpt.mlx"),
+        (["script.mlx", "-i", "cub.ply"], "there is no file cub.ply; there is cube.ply"),
+        (["script.mlx", "-i", "no/a.ply"], "there is no file no/a.ply: there is no folder no"),
+        (["script.mlx", "-i", "."], ". is a folder; name the meshes in it, such as '*.ply'"),
+        (["script.mlx", "-i", "*.off"], "no file matches '*.off'"),
+        (["script.mlx", "-i", "empty.ply"], "empty.ply is empty (0 bytes)"),
+        (["script.mlx", "-i", "cube.ply", "-o", "a"], "the format of a is unknown: it has no endi"),
+        (
+            ["script.mlx", "-i", "cube.ply", "-o", "a.fbx"],
+            "the format of a.fbx is unknown: PyMeshLab writes no .fbx files; there are ply, obj",
+        ),
+        (
+            # PyMeshLab keeps formats and filters in one list.
+            ["script.mlx", "-i", "cube.ply", "-o", "a.create_cube"],
+            "the format of a.create_cube is unknown: PyMeshLab writes no .create_cube files",
+        ),
+        (
+            ["script.mlx", "-i", "cube.ply", "-o", "no/a.ply"],
+            "cannot write no/a.ply: the folder no does not exist",
+        ),
+        (
+            ["script.mlx", "-i", "cube.ply", "-o", "empty.ply/a.ply"],
+            "cannot write empty.ply/a.ply: the folder empty.ply is a file, no folder",
+        ),
+        (["script.mlx", "-i", "cube.ply", "-o", "cube.ply"], "cube.ply is there already; --force"),
+        (["script.mlx", "-i", "cube.ply", "-o", "folder"], "folder is a folder; name a file in it"),
+        (["script.mlx", "-i", "cube.ply", "-o", "{nam}.ply"], "{nam} in '{nam}.ply' is no placeho"),
+        (["script.mlx", "-i", "cube.ply", "-o", "{.ply"], "the output name '{.ply' can't be read"),
+        (["script.mlx", "-o", "{name}.ply"], "-o {name}.ply: there is no input to take a name fro"),
+        (["script.mlx", "-i", "cube.ply", "two.ply", "-o", "a.ply"], "2 inputs need one -o with a"),
+        (
+            ["script.mlx", "-i", "cube.ply", "two.ply", "-o", "{ext}.obj"],
+            "cube.ply and two.ply would both be written to ply.obj; {index} or {dir}",
+        ),
+        (
+            ["script.mlx", "-i", "two.ply", "cube.ply", "--force", "-o", "{dir}/cube.ply"],
+            "the result of two.ply would replace the input cube.ply",
+        ),
+        (["script.mlx", "-m", "vx"], "Invalid value for '--mask' / '-m': 'vx' is not one of 'vc'"),
+        (["script.mlx", "--set", "1.maxflips"], "--set 1.maxflips: it must be STEP.PARAM=VALUE"),
+    ],
+)
+def test_wrong_use_is_one_line_before_anything_runs(monkeypatch, script, cube, arguments, line):
+    no_step(monkeypatch)
+    cube_file("two.ply")
+    Path("empty.ply").touch()
+    Path("folder").mkdir()
+    before = listing()
+    result = call("run", *arguments)
+    assert result.exit_code == 2
+    assert result.stderr.startswith(f"Error: {line}")
+    assert result.stderr.count("\n") == 1
+    assert (result.stdout, listing()) == ("", before)
+
+
+def test_every_fault_of_the_script_has_a_line(monkeypatch, cube):
+    no_step(monkeypatch)
+    script = script_file(("Taubin Smoth", {}), (FLIP[0], {"mxflips": ("RichInt", 1)}))
+    result = call("run", script, "-i", cube, "-o", "out.ply")
+    assert result.exit_code == 1
+    first, second = result.stderr.splitlines()
+    assert first.startswith("Error: script.mlx: step 1 (Taubin Smoth): ")
+    assert "Taubin Smooth" in first
+    assert second.startswith(f"Error: script.mlx: step 2 ({FLIP[0]}), parameter 'mxflips': ")
+    assert listing() == ["cube.ply", "script.mlx"]
+
+
+def test_a_faulty_script_is_named_before_a_broken_input():
+    Path("bad.ply").write_text("no mesh")
+    result = call("run", script_file(("Taubin Smoth", {})), "-i", "bad.ply")
+    assert result.exit_code == 1
+    assert result.stderr.startswith("Error: script.mlx: step 1 (Taubin Smoth): ")
+
+
+def test_an_input_without_a_mesh_is_one_line(script):
+    Path("none.ply").write_text("ply\nformat ascii 1.0\nelement vertex 0\nend_header\n")
+    result = call("run", script, "-i", "none.ply", "-o", "out.ply")
+    assert result.exit_code == 1
+    assert re.fullmatch(r"Error: cannot read none\.ply: .+\n", result.stderr)
+
+
+def test_an_unknown_input_format_is_named(script):
+    Path("a.xyzzy").write_text("hello")
+    result = call("run", script, "-i", "a.xyzzy", "-o", "out.ply")
+    assert result.exit_code == 1
+    assert result.stderr == "Error: cannot read a.xyzzy: PyMeshLab knows no mesh format '.xyzzy'\n"
+
+
+# Dry runs, logs, settings
+
+
+def test_a_dry_run_checks_all_and_writes_nothing(monkeypatch, script, cube):
+    no_step(monkeypatch)
+    result = call("run", script, "-i", cube, "-o", "out.ply", "-l", "log.txt", "--dry-run")
+    assert result.exit_code == 0
+    assert result.stdout == "cube.ply: fine; 2 steps to run, then out.ply to write\n"
+    assert listing() == ["cube.ply", "script.mlx"]
+    Path("bad.ply").write_text("no mesh")
+    assert call("run", script, "-i", "bad.ply", "--dry-run").exit_code == 1
+
+
+def test_the_log_has_parameters_times_and_what_came_back(cube):
+    script = script_file((FLIP[0], {"energy": ("RichEnum", '1" enum_cardinality="2')}), TAUBIN)
+    Path("log.txt").write_text("before\n")
+    assert call("run", script, "-i", cube, "-o", "out.ply", "-l", "log.txt").exit_code == 0
+    lines = Path("log.txt").read_text().splitlines()
+    # meshlabserver, too, wrote behind what was there.
+    assert lines[0] == "before"
+    assert lines[1].endswith(" run script.mlx")
+    assert lines[2] == "input cube.ply (14 vertices, 24 faces)"
+    assert lines[3] == (
+        "step 1 of 2: meshing_edge_flip_by_willmore_optimization (Willmore flipping optimization)"
+    )
+    assert lines[4] == "  parameters: energy='willmore'"
+    assert re.fullmatch(r"  time: \d+\.\d{3} s", lines[5])
+    assert re.match(r"  returned: flips=\d+, gain=[\d.]+, willmore_before=45\.75", lines[6])
+    assert lines[7:9] == [
+        "step 2 of 2: apply_coord_taubin_smoothing (Taubin Smooth)",
+        "  parameters: stepsmoothnum=2",
+    ]
+    assert lines[10] == "output out.ply (14 vertices, 24 faces)"
+
+
+def test_the_log_is_there_when_a_step_fails(cube):
+    Path("points.xyz").write_text("0 0 0\n1 0 0\n0 1 0\n")
+    script = script_file(("Select All", {}), FLIP)
+    result = call("run", script, "-i", "points.xyz", "-o", "out.ply", "-l", "log.txt")
+    assert result.exit_code == 1
+    assert result.stderr.startswith("Error: script.mlx, step 2 (meshing_edge_flip_by_willmore_opt")
+    assert "has no faces" in result.stderr
+    assert result.stderr.count("\n") == 1
+    log = Path("log.txt").read_text()
+    assert "step 1 of 2: set_selection_all" in log
+    assert f"error: {result.stderr.removeprefix('Error: ')}" in log
+    assert not Path("out.ply").exists()
+
+
+def test_a_log_that_cannot_be_written_is_found_before(monkeypatch, script, cube):
+    no_step(monkeypatch)
+    result = call("run", script, "-i", cube, "-l", "no/log.txt")
+    assert result.exit_code == 1
+    assert result.stderr == "Error: cannot write the log no/log.txt: No such file or directory\n"
+
+
+def test_a_log_on_the_terminal(script, cube):
+    result = call("run", script, "-i", cube, "-l", "-")
+    assert "step 2 of 2: apply_coord_taubin_smoothing (Taubin Smooth)\n" in result.stdout
+    assert result.stdout.splitlines()[-1].startswith("cube.ply -> not saved")
+
+
+def test_settings_replace_values_of_the_script(script, cube):
+    arguments = ["--set", "Taubin Smooth.stepsmoothnum=7", "--set", "1.maxflips=3"]
+    result = call("run", script, "-i", cube, "-l", "-", *arguments)
+    assert result.exit_code == 0
+    assert "  parameters: maxflips=3\n" in result.stdout
+    assert "  parameters: stepsmoothnum=7\n" in result.stdout
+    assert "  returned: flips=3, " in result.stdout
+
+
+def test_native_filters_print_nothing_into_the_output(cube):
+    # This one writes to the C++ streams, whatever the verbosity.
+    script = script_file(("generate_alpha_shape", {}))
+    done = spawn("run", script, "-i", cube)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert len(done.stdout.splitlines()) == 1
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a terminal of POSIX")
+def test_a_progress_bar_on_a_terminal(script, cube):
+    reader, terminal = os.openpty()
+    with os.fdopen(terminal, "w") as stderr:
+        done = subprocess.run(
+            [sys.executable, "-m", "meshlab_willmore", "run", script, "-i", cube],
+            stdout=subprocess.PIPE,
+            stderr=stderr,
+            text=True,
+            check=True,
+        )
+    shown = os.read(reader, 65536).decode()
+    os.close(reader)
+    assert shown.count("cube.ply  [") > 2
+    assert "apply_coord_taubin_smoothing" in shown
+    assert "100%" in shown
+    assert "%" not in done.stdout
+
+
+def test_no_progress_bar_in_a_pipe(script, cube):
+    result = call("run", script, "-i", cube)
+    assert "\r" not in result.output
+    assert "[#" not in result.output

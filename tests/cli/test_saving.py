@@ -1,0 +1,282 @@
+"""Saving: whole or not at all, with textures and materials, and never over somebody's file."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pymeshlab
+import pytest
+
+from meshlab_willmore.cli import saving, textures
+from meshlab_willmore.cli.saving import Wish, save
+from tests import meshes
+
+from .conftest import SAMPLES, cube_file, listing, loaded, same_mesh
+
+TEXTURED = SAMPLES / "bunny10k_textured.obj"
+IMAGE = "TextureDouble_A.png"
+
+# A DAE has the date in it; the first 3DS of a process differs from the next ones.
+VARYING = {"dae", "3ds"}
+
+
+def cube_set():
+    ms = pymeshlab.MeshSet()
+    ms.add_mesh(pymeshlab.Mesh(*meshes.cube()))
+    return ms
+
+
+def textured_set():
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(TEXTURED))
+    return ms
+
+
+@pytest.mark.parametrize("ending", ["ply", "obj", "stl", "off", "dae", "x3d", "wrl", "dxf", "3ds"])
+def test_a_saved_mesh_is_what_pymeshlab_writes(ending, tmp_path):
+    for folder in ("ours", "native"):
+        (tmp_path / folder).mkdir()
+    ours, native = tmp_path / "ours" / f"a.{ending}", tmp_path / "native" / f"a.{ending}"
+    assert save(cube_set(), ours, Wish())[0] == ours
+    cube_set().save_current_mesh(str(native))
+    assert listing(ours.parent) == listing(native.parent)
+    if ending not in VARYING:
+        assert ours.read_bytes() == native.read_bytes()
+
+
+# Side files
+
+
+def test_material_and_texture_stand_beside_the_mesh(tmp_path):
+    files = save(textured_set(), tmp_path / "a.obj", Wish(origin=SAMPLES))
+    assert sorted(file.name for file in files) == listing(tmp_path) == [IMAGE, "a.obj", "a.obj.mtl"]
+    assert files[0].name == "a.obj"
+    assert "mtllib ./a.obj.mtl" in (tmp_path / "a.obj").read_text()
+    # PyMeshLab would have encoded it anew.
+    assert (tmp_path / IMAGE).read_bytes() == (SAMPLES / IMAGE).read_bytes()
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(tmp_path / "a.obj"))
+    assert list(ms.current_mesh().textures()) == [IMAGE]
+
+
+def test_a_texture_that_is_there_already_is_no_conflict(tmp_path):
+    save(textured_set(), tmp_path / "a.ply", Wish(origin=SAMPLES))
+    files = save(textured_set(), tmp_path / "b.ply", Wish(origin=SAMPLES))
+    assert tmp_path / "b.ply" in files
+    assert listing(tmp_path) == [IMAGE, "a.ply", "b.ply"]
+
+
+def test_another_texture_of_that_name_is_kept_unless_forced(tmp_path):
+    other = tmp_path / IMAGE
+    other.write_bytes(b"somebody's picture")
+    with pytest.raises(OSError, match=rf"cannot write .*a\.ply: .*{IMAGE} is there; --force"):
+        save(textured_set(), tmp_path / "a.ply", Wish(origin=SAMPLES))
+    assert listing(tmp_path) == [IMAGE]
+    assert other.read_bytes() == b"somebody's picture"
+    save(textured_set(), tmp_path / "a.ply", Wish(force=True, origin=SAMPLES))
+    assert other.read_bytes() == (SAMPLES / IMAGE).read_bytes()
+
+
+def test_a_changed_texture_is_written_anew(tmp_path):
+    changed = tmp_path / "in" / IMAGE
+    changed.parent.mkdir()
+    # The file beside the input shows something else by now.
+    changed.write_bytes(b"not the picture")
+    save(textured_set(), tmp_path / "a.obj", Wish(origin=changed.parent))
+    again = pymeshlab.MeshSet()
+    again.load_new_mesh(str(tmp_path / "a.obj"))
+    (image,) = again.current_mesh().textures().values()
+    assert (image.width(), image.height()) == (512, 512)
+
+
+def test_a_texture_in_a_folder_above_lands_there(tmp_path):
+    source = tmp_path / "source" / "mesh"
+    source.mkdir(parents=True)
+    (tmp_path / "source" / "images").mkdir()
+    (tmp_path / "source" / "images" / "t.png").write_bytes((SAMPLES / IMAGE).read_bytes())
+    (source / "a.mtl").write_text("newmtl m\nmap_Kd ../images/t.png\n")
+    (source / "a.obj").write_text(
+        "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n"
+    )
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(source / "a.obj"))
+    assert list(ms.current_mesh().textures()) == ["../images/t.png"]
+    target = tmp_path / "target" / "mesh"
+    target.mkdir(parents=True)
+    save(ms, target / "b.obj", Wish(origin=source))
+    assert listing(target) == ["b.obj", "b.obj.mtl"]
+    assert listing(tmp_path / "target") == ["images", "mesh"]
+    assert (target.parent / "images" / "t.png").read_bytes() == (SAMPLES / IMAGE).read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("name", "wish"),
+    [("a.stl", Wish()), ("a.ply", Wish(parts=("vn",)))],
+)
+def test_no_texture_where_the_file_does_not_speak_of_it(tmp_path, name, wish):
+    save(textured_set(), tmp_path / name, wish)
+    assert listing(tmp_path) == [name]
+
+
+# What is saved
+
+
+def header(path):
+    return path.read_bytes().partition(b"end_header")[0].decode()
+
+
+def test_a_mask_lists_all_that_is_saved(tmp_path):
+    ms = textured_set()
+    ms.compute_color_by_function_per_vertex()
+    ms.compute_scalar_by_function_per_vertex(q="x")
+    save(ms, tmp_path / "all.ply", Wish())
+    save(ms, tmp_path / "some.ply", Wish(parts=("vn", "vc")))
+    assert "property double quality" in header(tmp_path / "all.ply")
+    assert "texcoord" in header(tmp_path / "all.ply")
+    text = header(tmp_path / "some.ply")
+    assert "property double nx" in text
+    assert "property uchar red" in text
+    assert "quality" not in text
+    assert "texcoord" not in text
+
+
+def test_a_part_that_the_format_has_no_place_for_is_named(tmp_path, capsys):
+    save(cube_set(), tmp_path / "a.stl", Wish(parts=("vc", "fc", "wt")))
+    told = "Note: .stl files hold no vertex colours (vc) and no wedge texture coordinates (wt)\n"
+    assert capsys.readouterr().err == told
+    assert (tmp_path / "a.stl").exists()
+
+
+# Whole or not at all
+
+LIMITED = """
+import resource, sys
+resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
+from meshlab_willmore.cli import main
+main(sys.argv[1:], prog_name="meshlab-willmore")
+"""
+
+
+# PLY's writer tells that it had to stop; those of the others don't.
+@pytest.mark.skipif(sys.platform == "win32", reason="needs limits of POSIX")
+@pytest.mark.parametrize("ending", ["ply", "obj", "xyz", "json", "dae"])
+def test_no_room_is_one_line_and_no_output(tmp_path, ending):
+    script = tmp_path / "s.mlx"
+    script.write_text(
+        '<!DOCTYPE FilterScript><FilterScript><filter name="Select None"/></FilterScript>'
+    )
+    out = tmp_path / "out"
+    out.mkdir()
+    path = out / f"a.{ending}"
+    path.write_text("older")
+    done = subprocess.run(
+        [sys.executable, "-c", LIMITED, "run", script, "-i", TEXTURED, "-o", path, "--force"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr == f"Error: cannot write {path}: File too large\n"
+    assert listing(out) == [path.name]
+    assert path.read_text() == "older"
+
+
+def test_a_writer_that_stops_half_way_is_noticed():
+    if not Path("/dev/full").exists():
+        pytest.skip("needs /dev/full")
+    with pytest.raises(OSError, match=r"cannot write a\.ply: No space left on device"):
+        saving._check_whole(Path("/dev/full"), Path("a.ply"))
+
+
+def test_every_file_is_checked(tmp_path, monkeypatch):
+    seen = set()
+    monkeypatch.setattr(saving, "_check_whole", lambda _, target: seen.add(target.name))
+    save(textured_set(), tmp_path / "a.obj", Wish())
+    assert sorted(seen) == listing(tmp_path) == [IMAGE, "a.obj", "a.obj.mtl"]
+
+
+def test_checking_leaves_the_file_as_it_is(tmp_path):
+    path = tmp_path / "a.ply"
+    path.write_bytes(b"all of it")
+    saving._check_whole(path, path)
+    assert path.read_bytes() == b"all of it"
+
+
+def test_a_format_of_which_nothing_is_written(tmp_path):
+    class Silent:
+        def __init__(self, ms):
+            self.current_mesh = ms.current_mesh
+
+        def save_current_mesh(self, *_arguments, **_named):
+            pass
+
+    with pytest.raises(OSError, match=r"cannot write .*a\.ply: PyMeshLab wrote no \.ply file"):
+        save(Silent(cube_set()), tmp_path / "a.ply", Wish())
+    assert listing(tmp_path) == []
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt(), RuntimeError("broken")])
+def test_after_an_error_nothing_is_left(tmp_path, monkeypatch, error):
+    path = cube_file(tmp_path / "a.ply")
+    before = path.read_bytes()
+
+    def fail(*_arguments):
+        raise error
+
+    monkeypatch.setattr(saving, "_check_whole", fail)
+    with pytest.raises(type(error)):
+        save(textured_set(), path, Wish(force=True))
+    assert listing(tmp_path) == ["a.ply"]
+    assert path.read_bytes() == before
+
+
+def test_if_the_mesh_cannot_be_renamed_its_new_side_files_go(tmp_path, monkeypatch):
+    replace = os.replace
+
+    def fail_for_mesh(source, target):
+        if Path(target).name == "a.obj":
+            raise OSError(13, "Permission denied")
+        replace(source, target)
+
+    monkeypatch.setattr(os, "replace", fail_for_mesh)
+    with pytest.raises(OSError, match=r"cannot write .*a\.obj: Permission denied"):
+        save(textured_set(), tmp_path / "a.obj", Wish(origin=SAMPLES))
+    assert listing(tmp_path) == []
+
+
+def test_an_older_file_is_replaced_only_when_forced(tmp_path):
+    path = tmp_path / "a.ply"
+    path.write_text("mine")
+    with pytest.raises(OSError, match="is there; --force replaces it"):
+        save(cube_set(), path, Wish())
+    assert path.read_text() == "mine"
+    save(cube_set(), path, Wish(force=True))
+    assert np.array_equal(loaded(path).faces, meshes.cube()[1])
+    assert listing(tmp_path) == ["a.ply"]
+
+
+def test_the_files_have_the_usual_permissions(tmp_path):
+    save(cube_set(), tmp_path / "a.ply", Wish())
+    usual = tmp_path / "usual"
+    usual.touch()
+    assert (tmp_path / "a.ply").stat().st_mode == usual.stat().st_mode
+
+
+def test_long_and_foreign_names(tmp_path):
+    path = tmp_path / ("ü" * 100 + ".ply")
+    save(cube_set(), path, Wish())
+    assert listing(tmp_path) == [path.name]
+    assert same_mesh(path, cube_file(tmp_path / "b.ply"))
+
+
+def test_textures_compare_by_what_they_show(tmp_path):
+    ms = textured_set()
+    (image,) = ms.current_mesh().textures().values()
+    encoded_anew = tmp_path / "anew.png"
+    image.save(str(encoded_anew))
+    assert encoded_anew.read_bytes() != (SAMPLES / IMAGE).read_bytes()
+    textures.write(image, tmp_path / "out.png", [encoded_anew, SAMPLES / IMAGE])
+    assert (tmp_path / "out.png").read_bytes() == encoded_anew.read_bytes()
+    assert listing(tmp_path) == ["anew.png", "out.png"]

@@ -1,0 +1,135 @@
+"""`lint` and `convert`: scripts without meshes."""
+
+from pathlib import Path
+
+import pytest
+
+from meshlab_willmore import script
+
+from .conftest import FLIP, TAUBIN, call, listing, script_file
+
+OLD = """<!DOCTYPE FilterScript>
+<FilterScript>
+ <filter name="Depth Smooth">
+  <Param type="RichInt" name="stepSmoothNum" isxmlparam="0" value="3" tooltip="Times"/>
+ </filter>
+ <filter name="Repair non Manifold Edges">
+  <Param type="RichEnum" name="method" value="1" enum_cardinality="2" enum_val0="a" enum_val1="b"/>
+ </filter>
+</FilterScript>
+"""
+
+
+# lint
+
+
+def test_fine_scripts():
+    script_file(FLIP, TAUBIN, path="a.mlx")
+    script_file(TAUBIN, path="b.mlx")
+    result = call("lint", "*.mlx")
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert result.stdout == "a.mlx: fine, 2 steps\nb.mlx: fine, 1 step\n"
+
+
+def test_every_fault_of_every_script_has_a_line():
+    script_file(("Taubin Smoth", {}), (FLIP[0], {"mxflips": ("RichInt", 1)}), path="a.mlx")
+    script_file(FLIP, path="b.mlx")
+    Path("c.mlx").write_text("<FilterScript>")
+    result = call("lint", "a.mlx", "b.mlx", "c.mlx", "d.mlx")
+    assert (result.exit_code, result.stderr) == (1, "")
+    lines = result.stdout.splitlines()
+    assert [line.partition(": ")[0] for line in lines] == ["a.mlx"] * 2 + [
+        "b.mlx",
+        "c.mlx",
+        "d.mlx",
+    ]
+    assert "step 1 (Taubin Smoth)" in lines[0]
+    assert "Taubin Smooth" in lines[0]
+    assert "'mxflips'" in lines[1]
+    assert lines[2] == "b.mlx: fine, 1 step"
+    assert lines[4] == "d.mlx: there is no such file"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        ([], "Missing argument 'SCRIPT...'."),
+        (["."], ". is a folder; name the scripts, such as './*.mlx'"),
+        (["*.mlx"], "no file matches '*.mlx'"),
+    ],
+)
+def test_lint_wrong_use(arguments, line):
+    result = call("lint", *arguments)
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert result.stderr.startswith(f"Error: {line}")
+
+
+# convert
+
+
+def test_an_old_script_becomes_one_of_today():
+    Path("old.mlx").write_text(OLD)
+    result = call("convert", "old.mlx", "new.mlx")
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert result.stdout == "old.mlx -> new.mlx: 2 of 2 steps\n"
+    text = Path("new.mlx").read_text()
+    assert "isxmlparam" not in text
+    assert 'tooltip="Times"' in text
+    # The choices have the names that MeshLab gives them today.
+    assert 'enum_val0="Remove Faces"' in text
+    assert 'enum_val1="Split Vertices"' in text
+    assert [(c.known.name, c.given) for c in script.calls("new.mlx")] == [
+        (c.known.name, c.given) for c in script.calls("old.mlx")
+    ]
+
+
+def test_names_of_pymeshlab_become_those_of_meshlab():
+    script_file(("apply_coord_taubin_smoothing", {"stepsmoothnum": ("RichInt", 4)}), path="a.mlx")
+    assert call("convert", "a.mlx", "b.mlx").exit_code == 0
+    (step,) = script.read("b.mlx")
+    assert step.filter == "Taubin Smooth"
+    assert [(p.name, p.type, p.value) for p in step.params] == [("stepSmoothNum", "RichInt", 4)]
+
+
+def test_for_meshlab_our_steps_are_left_out_and_named():
+    script_file(FLIP, TAUBIN, ("Willmore measures", {}), path="a.mlx")
+    result = call("convert", "a.mlx", "b.mlx", "--meshlab")
+    assert result.exit_code == 0
+    assert result.stdout == (
+        "a.mlx -> b.mlx: 1 of 3 steps\n"
+        "left out: step 1, Willmore flipping optimization\n"
+        "left out: step 3, Willmore measures\n"
+    )
+    assert [step.filter for step in script.read("b.mlx")] == ["Taubin Smooth"]
+
+
+def test_for_meshlab_percentages_are_named():
+    share = {"Threshold": ("RichAbsPerc", '5%" min="0" max="1')}
+    script_file(("Simplification: Clustering Decimation", share), path="a.mlx")
+    told = call("convert", "a.mlx", "b.mlx", "--meshlab").stdout.splitlines()[1]
+    assert told.startswith("step 1, Simplification: Clustering Decimation: a percentage depends on")
+
+
+def test_a_script_with_faults_is_not_converted():
+    script_file(("Taubin Smoth", {}), path="a.mlx")
+    result = call("convert", "a.mlx", "b.mlx")
+    assert result.exit_code == 1
+    assert result.stderr.startswith("Error: a.mlx: step 1 (Taubin Smoth): ")
+    assert listing() == ["a.mlx"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        (["no.mlx", "b.mlx"], "there is no filter script no.mlx"),
+        (["a.mlx", "a.mlx"], "a.mlx is there already; --force replaces it"),
+        (["a.mlx", "no/b.mlx"], "cannot write no/b.mlx: the folder no does not exist"),
+    ],
+)
+def test_convert_wrong_use(arguments, line):
+    path = script_file(TAUBIN, path="a.mlx")
+    before = path.read_text()
+    result = call("convert", *arguments)
+    assert result.exit_code == 2
+    assert result.stderr == f"Error: {line}\n"
+    assert path.read_text() == before

@@ -1,0 +1,90 @@
+"""`--set`: which step is meant, which parameter, and which value."""
+
+import click
+import pytest
+
+from meshlab_willmore.cli.settings import with_settings
+from meshlab_willmore.mlx.steps import Param, Percentage, Step
+
+FLIP = "Willmore flipping optimization"
+STEPS = (
+    Step("Taubin Smooth", (Param("stepSmoothNum", "RichInt", 10, (("tooltip", "Times"),)),)),
+    Step(FLIP),
+    Step("Simplification: Clustering Decimation"),
+    Step("meshing_edge_flip_by_willmore_optimization"),
+    Step("No such filter"),
+)
+
+
+def changed(*written):
+    return with_settings(STEPS, written)
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        "1.stepSmoothNum=3",
+        "1.stepsmoothnum=3",
+        "Taubin Smooth.stepSmoothNum=3",
+        "apply_coord_taubin_smoothing.stepsmoothnum=3",
+        " 1 . stepSmoothNum = 3",
+    ],
+)
+def test_a_value_takes_the_place_of_the_scripts(written):
+    steps = changed(written)
+    details = (("tooltip", "Times"),)
+    assert steps[0] == Step("Taubin Smooth", (Param("stepSmoothNum", "RichInt", 3, details),))
+    assert steps[1:] == STEPS[1:]
+
+
+@pytest.mark.parametrize(
+    ("written", "step", "param"),
+    [
+        ("1.lambda=0.25", 0, Param("lambda", "RichFloat", 0.25)),
+        ("2.energy=willmore", 1, Param("energy", "RichEnum", 1)),
+        ("2.energy=1", 1, Param("energy", "RichEnum", 1)),
+        ("2.monotone=false", 1, Param("monotone", "RichBool", False)),
+        ("3.Threshold=2%", 2, Param("Threshold", "RichAbsPerc", Percentage(2.0))),
+        ("3.threshold=0.5", 2, Param("Threshold", "RichAbsPerc", 0.5)),
+    ],
+)
+def test_a_parameter_that_the_script_has_not_got_is_added(written, step, param):
+    assert changed(written)[step].params[-1] == param
+
+
+def test_the_last_of_several_holds():
+    (param,) = changed("1.stepSmoothNum=3", "1.stepSmoothNum=4")[0].params
+    assert param.value == 4
+
+
+def test_unknown_filters_are_left_to_the_check():
+    assert changed("5.foo=1") == STEPS
+
+
+@pytest.mark.parametrize(
+    ("written", "text"),
+    [
+        ("stepSmoothNum=3", "it must be STEP.PARAM=VALUE"),
+        ("1.stepSmoothNum", "it must be STEP.PARAM=VALUE"),
+        (".x=1", "it must be STEP.PARAM=VALUE"),
+        ("0.x=1", "the script has steps 1 to 5"),
+        ("6.x=1", "the script has steps 1 to 5"),
+        ("Depth Smooth.x=1", "the script has no Depth Smooth, only Taubin Smooth, "),
+        (
+            "meshing_edge_flip_by_willmore_optimization.maxflips=1",
+            "is in the script 2 times; name the step by its number (2, 4)",
+        ),
+        ("1.stepSmothNum=1", "has no parameter 'stepSmothNum'; did you mean 'stepSmoothNum'?"),
+        ("1.zzz=1", "apply_coord_taubin_smoothing has no parameter 'zzz', only lambda, mu, "),
+        ("1.stepSmoothNum=many", "'many' is not a whole number"),
+        ("2.energy=wilmore", "; the choices are virtual willmore, willmore"),
+        ("2.monotone=perhaps", "--set 2.monotone=perhaps: 'perhaps' "),
+    ],
+)
+def test_what_can_not_be_is_named(written, text):
+    with pytest.raises(click.ClickException) as caught:
+        changed(written)
+    assert caught.value.exit_code == 2
+    assert caught.value.message.startswith(f"--set {written}: ")
+    assert text in caught.value.message
+    assert "\n" not in caught.value.message

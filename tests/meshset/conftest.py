@@ -1,5 +1,6 @@
 """Sets of meshes for the tests of the filters."""
 
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -38,3 +39,11 @@ def random_transform(seed=3):
     transform = np.eye(4)
     transform[:3] = np.random.default_rng(seed).normal(size=(3, 4))
     return transform
+
+
+def script_of(ms):
+    """The filter script of a set as text."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "script.mlx"
+        ms.save_filter_script(str(path))
+        return path.read_text()

@@ -15,16 +15,16 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Collection, Iterable
-from pathlib import Path
 
 import pymeshlab
 
 from .meshset import layers, numbering
-from .meshset.check import Call, faults_of, resolve
+from .meshset.check import Call, resolve
+from .meshset.modern import modernised
 from .meshset.play import Played, play
+from .mlx import write as _writing
 from .mlx.read import read
 from .mlx.steps import Fault, Param, Percentage, ScriptError, Step
-from .mlx.write import write
 
 __all__ = [
     "Call",
@@ -62,10 +62,11 @@ def check(script: Script, mesh_ids: Collection[int] | None = None) -> list[Fault
         Empty if the script can run.
     """
     try:
-        steps, _ = _open(script)
+        calls(script, mesh_ids)
     except ScriptError as error:
-        return list(error.faults)
-    return faults_of(steps, mesh_ids)
+        source = "" if error.source == _UNNAMED else error.source
+        return [fault._replace(source=source) for fault in error.faults]
+    return []
 
 
 def calls(script: Script, mesh_ids: Collection[int] | None = None) -> tuple[Call, ...]:
@@ -117,8 +118,29 @@ def run(
     return play(ms, resolve(steps, source, there), source, before, after)
 
 
+def write(path: str | os.PathLike[str], steps: Iterable[Step]) -> None:
+    """Write steps as a filter script, in the words of MeshLab where they can be looked up.
+
+    Parameters
+    ----------
+    path : str or path
+        The file, which is replaced if it is there; it appears when it is whole.
+    steps : iterable of Step
+        PyMeshLab's names, old names, and parameters without a type become what MeshLab writes
+        today; a step with a fault is written as it is.
+
+    Raises
+    ------
+    ScriptError
+        If a step says what no script can hold.
+    OSError
+        In one line, if the file can't be written.
+    """
+    _writing.write(path, modernised(steps))
+
+
 def _open(script: Script) -> tuple[tuple[Step, ...], str]:
     """The steps of a script, and what to call it."""
     if isinstance(script, (str, os.PathLike)):
-        return read(script), Path(script).name
+        return read(script), str(script)
     return tuple(script), _UNNAMED

@@ -125,6 +125,31 @@ def test_every_kind_of_value_reaches_the_filter(bumpy):
         np.testing.assert_array_equal(one.vertex_color_matrix(), other.vertex_color_matrix())
 
 
+def test_a_parameter_can_have_any_keyword(bumpy):
+    """`name`, for one, which functions on the way have too."""
+    step = Step(
+        "compute_new_custom_scalar_attribute_per_vertex",
+        (Param("name", "RichString", "height"), Param("expr", "RichString", "z")),
+    )
+    script.run([step], bumpy)
+    z = bumpy.current_mesh().vertex_matrix()[:, 2]
+    np.testing.assert_array_equal(
+        bumpy.current_mesh().vertex_custom_scalar_attribute_array("height"), z
+    )
+
+
+def test_the_sets_own_script_keeps_its_digits(bumpy):
+    called = set_of(*meshes.bumpy_sphere(150))
+    for ms in (bumpy, called):
+        ms.apply_coord_taubin_smoothing(lambda_=0.123456789)
+    script.run([Step("Select None")], bumpy)
+    for ms in (bumpy, called):
+        ms.apply_filter_script()
+    np.testing.assert_array_equal(
+        bumpy.current_mesh().vertex_matrix(), called.current_mesh().vertex_matrix()
+    )
+
+
 def test_a_point_that_is_the_filters_default_keeps_its_precision(bumpy):
     """The default is in double precision, and what a caller gives is rounded to single."""
     name = "compute_scalar_by_geodesic_distance_from_given_point_per_vertex"
@@ -149,8 +174,9 @@ def test_all_faults_are_found_and_nothing_runs(bumpy, tmp_path):
     ]
     with pytest.raises(ScriptError) as caught:
         script.run(path, bumpy)
-    assert list(caught.value.faults) == found
-    assert str(caught.value).startswith("steps.mlx: step 2 (Taubin Smoth): ")
+    assert [fault._replace(source=str(path)) for fault in caught.value.faults] == found
+    assert str(caught.value) == "\n".join(map(str, found))
+    assert str(found[0]).startswith(f"{path}: step 2 (Taubin Smoth): ")
     np.testing.assert_array_equal(faces(bumpy), before)
 
 
@@ -200,6 +226,30 @@ def test_files_can_be_read_and_written_after_a_step_failed(tmp_path):
         cwd=tmp_path,
     )
     assert (run.returncode, run.stdout) == (0, "1\n")
+
+
+def test_a_script_is_written_in_meshlabs_words(tmp_path):
+    """PyMeshLab's names are for Python; neither MeshLab nor native scripts know them."""
+    step = Step("create_sphere", (Param("subdiv", "", "2"), Param("radius", "RichFloat", 3.0)))
+    unknown = Step("Unheard of", (Param("x", "RichInt", 1, (("tooltip", "t"),)),))
+    path = written(tmp_path, step, unknown)
+    assert script.read(path) == (
+        Step("Sphere", (Param("subdiv", "RichInt", 2), Param("radius", "RichFloat", 3.0))),
+        unknown,
+    )
+
+
+@pytest.mark.parametrize(
+    ("steps", "number"),
+    [
+        ([Step("Delete Current Mesh"), Step("Taubin Smooth")], 2),
+        ([Step("Delete Current Mesh"), Step("Delete Current Mesh")], 2),
+        ([Step("Delete Current Mesh"), Step("Torus"), Step("Taubin Smooth")], None),
+    ],
+)
+def test_a_script_that_deletes_its_mesh_leaves_none_for_the_next_step(steps, number):
+    assert [fault.step for fault in script.check(steps, [0])] == ([number] if number else [])
+    assert script.check(steps) == []
 
 
 def test_an_empty_script_does_nothing(bumpy):

@@ -29,6 +29,17 @@ _MANUAL = "https://pymeshlab.readthedocs.io/en/{version}/filter_list.html#{name}
 _TYPES = {bool: "RichBool", int: "RichInt", float: "RichFloat", str: "RichEnum"}
 # All filters of this name, and few others, work on an empty set.
 _MAKES_MESHES = "create_"
+# MeshLab's names of before 2016.12, which PyMeshLab's own table of old names does not reach.
+_OLD_NAMES = {
+    "Quadric Edge Collapse Decimation": "meshing_decimation_quadric_edge_collapse",
+    "Quadric Edge Collapse Decimation (with texture)": (
+        "meshing_decimation_quadric_edge_collapse_with_texture"
+    ),
+    "Re-Orient all faces coherentely": "meshing_re_orient_faces_coherently",
+    "Remove Duplicated Vertex": "meshing_remove_duplicate_vertices",
+    "Remove Isolated pieces (wrt Face Num)": "meshing_remove_connected_component_by_face_number",
+    "Remove Unreferenced Vertex": "meshing_remove_unreferenced_vertices",
+}
 _MOST_SUGGESTIONS = 3
 _LEAST_LIKENESS = 0.55
 _LONGEST_NAME = 200
@@ -87,7 +98,7 @@ def find(name: str) -> Known | None:
         return _ours(ours)
     if name in _recorded():
         return _native(name)
-    today = _by_meshlab_name().get(name) or _new_name(name)
+    today = _by_meshlab_name().get(name) or _OLD_NAMES.get(name) or _new_name(name)
     return _native(today) if today else None
 
 
@@ -159,9 +170,14 @@ def _recorded() -> dict[str, dict[str, Any]]:
     return _file()["filters"]
 
 
-def _there() -> set[str]:
+def _there() -> frozenset[str]:
     """The native filters that PyMeshLab has at this moment; plugins can come while it runs."""
-    return set(pymeshlab.filter_list()) - BY_NAME.keys()
+    return _there_with(pymeshlab.plugin_number())
+
+
+@functools.cache
+def _there_with(_plugins: int) -> frozenset[str]:
+    return frozenset(pymeshlab.filter_list()) - BY_NAME.keys()
 
 
 @functools.cache

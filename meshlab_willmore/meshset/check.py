@@ -93,6 +93,8 @@ class _Checker:
     def __init__(self, mesh_ids: Collection[int] | None) -> None:
         self.faults: list[Fault] = []
         self._ids = mesh_ids
+        # How many meshes are left , as long as none can have been added.
+        self._left = len(mesh_ids) if mesh_ids is not None else 0
         self._may_be_more = False
 
     def calls(self, number: int, step: Step) -> list[Call]:
@@ -108,6 +110,7 @@ class _Checker:
             self._may_be_more = True
         given = dict(self._values(number, step, known))
         self._may_be_more = self._may_be_more or known.makes_layers
+        self._left -= known.name == _DELETE
         return [Call(number, known, given)]
 
     def _values(self, number: int, step: Step, known: Known) -> Iterator[tuple[str, Value]]:
@@ -153,7 +156,7 @@ class _Checker:
             )
 
     def _is_empty(self) -> bool:
-        return self._ids is not None and not self._ids and not self._may_be_more
+        return self._ids is not None and self._left <= 0 and not self._may_be_more
 
     def _add(self, number: int, step: Step, text: str, param: str = "") -> None:
         if len(self.faults) == MOST_FAULTS:
@@ -171,6 +174,7 @@ def _check_range(known: Known, own: KnownParam, value: Value) -> None:
 
 # --- names -------------------------------------------------------------------------------------
 
+_DELETE = "delete_current_mesh"
 _NO_MESH = "needs a mesh; give an input, or begin with a filter that creates one"
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+import functools
 import inspect
 import os
 import sys
@@ -37,6 +38,16 @@ _set_mesh_visibility = inspect.unwrap(MeshSet.set_mesh_visibility)
 _set_parameter_verbosity = inspect.unwrap(MeshSet.set_parameter_verbosity)
 _set_verbosity = inspect.unwrap(MeshSet.set_verbosity)
 
+# What PyMeshLab's functions raise; not all of it is a PyMeshLabException.
+ERRORS: tuple[type[Exception], ...] = (
+    RuntimeError,
+    pymeshlab.PyMeshLabException,
+    pymeshlab.InvalidEnumException,
+    pymeshlab.InvalidPercentageException,
+    pymeshlab.MissingComponentException,
+    pymeshlab.MissingCompactnessException,
+)
+
 Value = TypeVar("Value")
 
 
@@ -58,12 +69,12 @@ class PerSet(Generic[Value]):
         self._values[id(ms)] = value
 
 
-def apply(ms: MeshSet, name: str, **given: Any) -> dict[str, Any]:
+def apply(ms: MeshSet, name: str, /, **given: Any) -> dict[str, Any]:
     """Apply a native filter."""
     return _apply_filter(ms, name, **given)
 
 
-def defaults(ms: MeshSet, name: str, **given: Any) -> dict[str, Any]:
+def defaults(ms: MeshSet, name: str, /, **given: Any) -> dict[str, Any]:
     """The parameters of a native filter: the given ones, and the defaults for the set."""
     return _filter_parameter_values(ms, name, **given)
 
@@ -126,9 +137,25 @@ def unrecorded(ms: MeshSet) -> Iterator[None]:
                 clear_script(ms)
                 if b"<filter" in before:
                     load_script(ms, path)
+                    _rounded.put(ms, True)
 
 
 _WHOLE_SCRIPT = (b"</FilterScript>", b"<FilterScript/>")
+
+
+# Scripts that PyMeshLab has written and read again: numbers in them have six digits left.
+_rounded: PerSet[bool] = PerSet(False)
+
+
+def is_rounded(ms: MeshSet) -> bool:
+    """Whether PyMeshLab's script of `ms` has lost digits while helper filters ran."""
+    return _rounded.get(ms)
+
+
+def forget_rounding(ms: MeshSet) -> None:
+    """Forget it, since the script is another."""
+    if _rounded.get(ms):
+        _rounded.put(ms, False)
 
 
 def load_script(ms: MeshSet, path: Path) -> None:
@@ -210,8 +237,12 @@ def muted() -> Iterator[None]:
 
 
 def _flush_c_streams() -> None:
-    runtime = ctypes.CDLL("ucrtbase" if sys.platform == "win32" else None)
-    runtime.fflush(None)
+    _c_runtime().fflush(None)
+
+
+@functools.cache
+def _c_runtime() -> ctypes.CDLL:
+    return ctypes.CDLL("ucrtbase" if sys.platform == "win32" else None)
 
 
 def forget_failures() -> None:

@@ -7,6 +7,7 @@ happened. Such an id is called *logical* here, and one that the set shows *physi
 
 from __future__ import annotations
 
+import operator
 from bisect import bisect_left
 from collections.abc import Mapping
 from typing import Any, NamedTuple
@@ -76,8 +77,12 @@ def redirected(ms: MeshSet, given: Mapping[str, Any]) -> dict[str, Any]:
 
 def _newest(ms: MeshSet, newer: Mapping[int, int], keyword: str, value: Any) -> Any:
     # All of PyMeshLab's parameters that are mesh ids, and no others of whole numbers, end so.
-    if not keyword.endswith("mesh") or not isinstance(value, int):
+    if not keyword.endswith("mesh") or isinstance(value, bool):
         return value
-    while value in newer and not ms.mesh_id_exists(value):
-        value = newer[value]
-    return value
+    try:
+        mesh_id = operator.index(value)
+    except TypeError:
+        return value
+    while mesh_id in newer and not ms.mesh_id_exists(mesh_id):
+        mesh_id = newer[mesh_id]
+    return mesh_id

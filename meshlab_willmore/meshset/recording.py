@@ -9,7 +9,9 @@ native step in a way that does not come back: numbers (it writes six digits), te
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -20,8 +22,18 @@ from ..mlx.read import read, read_bytes
 from ..mlx.steps import Param, ScriptError, Step, Value
 from . import catalogue, native, numbering
 from .filters import FILTERS, Filter
+from .modern import modernised
 
 Noted = dict[str, Value]
+
+# Filters whose defaults can't be asked for without PyMeshLab printing something.
+_TALKING = frozenset(
+    {
+        "compute_color_from_scalar_per_face",
+        "compute_selection_by_scalar_per_face",
+        "get_scalar_histogram_per_face",
+    }
+)
 
 # What QString::number writes of a float.
 _DIGITS_OF_MESHLAB = ".6g"
@@ -36,18 +48,28 @@ class _Native(NamedTuple):
 
 _UNNOTED = _Native("", {})
 
+_UNNAMED = "filter script"
+
 # By set: the whole script in order. A `Step` is ours, or was loaded with others of ours.
 _entries: native.PerSet[tuple[_Native | Step, ...]] = native.PerSet(())
+# By set: the file that the script was loaded from, if that holds ours.
+_sources: native.PerSet[str] = native.PerSet(_UNNAMED)
 
 
 def holds_more(ms: MeshSet) -> bool:
-    """Whether the script of `ms` has steps that PyMeshLab's own script does not hold."""
-    return any(isinstance(entry, Step) for entry in _entries.get(ms))
+    """Whether the script of `ms` holds what PyMeshLab's own script does not.
+
+    That is steps of ours, digits that it has lost, and ids of layers that have moved.
+    """
+    if native.is_rounded(ms) or any(isinstance(entry, Step) for entry in _entries.get(ms)):
+        return True
+    return numbering.has_moved(ms) and b'type="RichMesh"' in native.script_of(ms)
 
 
 def steps_of(ms: MeshSet) -> tuple[Step, ...]:
     """All steps of the script of `ms`."""
-    recorded = read_bytes(native.script_of(ms), "filter script")
+    # What stands there has run, whatever it looks like.
+    recorded = read_bytes(native.script_of(ms), _UNNAMED, strict=False)
     waiting = iter(recorded)
     entries = _in_step(_entries.get(ms), len(recorded))
     return tuple(
@@ -55,14 +77,24 @@ def steps_of(ms: MeshSet) -> tuple[Step, ...]:
     )
 
 
-def put(ms: MeshSet, steps: Iterable[Step]) -> None:
-    """Make `steps` the script of `ms`."""
+def put(ms: MeshSet, steps: Iterable[Step], source: str) -> None:
+    """Make `steps`, which were read from `source`, the script of `ms`."""
+    _sources.put(ms, source)
     native.clear_script(ms)
+    native.forget_rounding(ms)
     _entries.put(ms, tuple(steps))
+
+
+def source_of(ms: MeshSet) -> str:
+    """What to call the script of `ms`: the file that it was loaded from, if it holds ours."""
+    return _sources.get(ms)
 
 
 def forget(ms: MeshSet) -> None:
     """Forget what was noted: PyMeshLab's own script was cleared, or filled by another."""
+    native.forget_rounding(ms)
+    if _sources.get(ms) != _UNNAMED:
+        _sources.put(ms, _UNNAMED)
     if _entries.get(ms):
         _entries.put(ms, ())
 
@@ -82,7 +114,7 @@ def our_script(path: str) -> tuple[Step, ...] | None:
             raise
         return None
     found = (catalogue.find(step.filter) for step in steps)
-    return steps if any(known and known.ours for known in found) else None
+    return modernised(steps) if any(known and known.ours for known in found) else None
 
 
 def _names_ours(path: str) -> bool:
@@ -91,7 +123,7 @@ def _names_ours(path: str) -> bool:
     except (OSError, ValueError):
         return False
     names = (name for filter_ in FILTERS for name in (filter_.name, filter_.meshlab_name))
-    return any(name.encode() in data for name in names)
+    return any(re.search(rf"""name\s*=\s*["']{name}["']""".encode(), data) for name in names)
 
 
 # --- noting ------------------------------------------------------------------------------------
@@ -126,29 +158,22 @@ def exact_values(ms: MeshSet, name: object, given: dict[str, Any]) -> Noted:
     if not known or not readers:
         return {}
     try:
-        with native.muted():
+        with native.muted() if known.name in _TALKING else nullcontext():
             values = native.defaults(ms, known.name, **given)
-    except Exception:
+    except native.ERRORS:
         # The call itself will say what is wrong with it.
         return {}
     return {key: read(ms, values[key]) for key, read in readers.items() if key in values}
 
 
-def _shortest(number: float) -> float:
-    """The float with the fewest digits that is the same number in single precision."""
-    with np.errstate(over="ignore"):
-        single = np.float32(number)
-    return float(str(single)) if float(single) == number else float(number)
-
-
 def _array(_: MeshSet, values: Any) -> Value:
-    return tuple(_shortest(value) for value in np.ravel(values))
+    return tuple(np.ravel(values).tolist())
 
 
 _EXACT: dict[str, Callable[[MeshSet, Any], Value]] = {
-    "RichFloat": lambda _, value: _shortest(value),
-    "RichDynamicFloat": lambda _, value: _shortest(value),
-    "RichAbsPerc": lambda _, value: _shortest(value),
+    "RichFloat": lambda _, value: float(value),
+    "RichDynamicFloat": lambda _, value: float(value),
+    "RichAbsPerc": lambda _, value: float(value),
     "RichPosition": _array,
     "RichDirection": _array,
     "RichMatrix44f": _array,
@@ -205,7 +230,8 @@ def _with_exact(step: Step, noted: _Native) -> Step:
     params = []
     for param in step.params:
         exact = noted.exact.get(catalogue.keyword_of(param.name), param.value)
-        params.append(param._replace(value=exact) if _same(param.value, exact) else param)
+        same = _same(param.value, exact)
+        params.append(param._replace(value=_shortest(exact)) if same else param)
     return step._replace(params=tuple(params))
 
 
@@ -216,6 +242,19 @@ def _same(written: Value, exact: Value) -> bool:
     if isinstance(written, int):
         return isinstance(exact, int)
     return _digits(written) == _digits(exact)
+
+
+def _shortest(value: Value) -> Value:
+    """Numbers of single precision with the fewest digits that say them."""
+    if isinstance(value, tuple):
+        return tuple(_fewest_digits(number) for number in value)
+    return _fewest_digits(value) if isinstance(value, float) else value
+
+
+def _fewest_digits(number: float) -> float:
+    with np.errstate(over="ignore"):
+        single = np.float32(number)
+    return float(str(single)) if float(single) == number else number
 
 
 def _digits(value: Value) -> list[str]:

@@ -8,6 +8,7 @@ set, or goes through them, is replaced so that it leaves out parked layers (see 
 from __future__ import annotations
 
 import functools
+import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -27,9 +28,6 @@ from .play import play
 from .recording import our_script
 
 _MISSING = object()
-
-# What error messages call the filter script of a set.
-_SCRIPT = "filter script"
 
 # (owner, attribute, value before), in the order of replacement; empty: not registered.
 _replaced: list[tuple[Any, str, Any]] = []
@@ -212,44 +210,42 @@ def _wrap_set_mesh_visibility(wrapped: Callable) -> Callable:
 def _wrap_apply_filter_script(wrapped: Callable) -> Callable:
     def apply_filter_script(self: MeshSet) -> None:
         layers.sweep(self)
-        if not _is_ours_to_run(self):
+        # PyMeshLab would reach parked layers.
+        if not recording.holds_more(self) and not layers.parked(self):
             wrapped(self)
             return
         with _as_pymeshlab_error():
             there = [numbering.logical_id(self, i) for i in layers.visible_ids(self)]
-            calls = resolve(recording.steps_of(self), _SCRIPT, there)
-        play(self, calls, _SCRIPT)
+            source = recording.source_of(self)
+            calls = resolve(recording.steps_of(self), source, there)
+        play(self, calls, source)
 
     return apply_filter_script
-
-
-def _is_ours_to_run(ms: MeshSet) -> bool:
-    """Whether PyMeshLab can't run the script of `ms`: for its steps, or for the layers there."""
-    if recording.holds_more(ms) or layers.parked(ms):
-        return True
-    return numbering.has_moved(ms) and any(
-        param.type == "RichMesh" for step in recording.steps_of(ms) for param in step.params
-    )
 
 
 def _wrap_load_filter_script(wrapped: Callable) -> Callable:
     def load_filter_script(self: MeshSet, filter_script_name: str) -> None:
         with _as_pymeshlab_error():
-            steps = our_script(filter_script_name)
+            steps = our_script(_path(filter_script_name)) if filter_script_name else None
         if steps is None:
             wrapped(self, filter_script_name)
             recording.forget(self)
         else:
-            recording.put(self, steps)
+            recording.put(self, steps, _path(filter_script_name))
 
     return load_filter_script
 
 
+def _path(name: str | bytes) -> str:
+    """The name of a file; PyMeshLab's functions take bytes as well."""
+    return os.fsdecode(name)
+
+
 def _wrap_save_filter_script(wrapped: Callable) -> Callable:
     def save_filter_script(self: MeshSet, filter_script_name: str) -> None:
-        if recording.holds_more(self) and isinstance(filter_script_name, str):
+        if recording.holds_more(self) and isinstance(filter_script_name, (str, bytes)):
             with _as_pymeshlab_error():
-                write(filter_script_name, recording.steps_of(self))
+                write(_path(filter_script_name), recording.steps_of(self))
         else:
             wrapped(self, filter_script_name)
 
@@ -259,7 +255,9 @@ def _wrap_save_filter_script(wrapped: Callable) -> Callable:
 def _wrap_print_filter_script(wrapped: Callable) -> Callable:
     def print_filter_script(self: MeshSet) -> None:
         if recording.holds_more(self):
-            print(listing(recording.steps_of(self)))
+            with _as_pymeshlab_error():
+                steps = recording.steps_of(self)
+            print(listing(steps))
         else:
             wrapped(self)
 

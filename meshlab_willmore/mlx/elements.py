@@ -35,6 +35,7 @@ class Reader(ContentHandler, LexicalHandler):
         self.steps: list[Step] = []
         self.faults: list[Fault] = []
         self.declares = False
+        self.is_script = False
         self._open: list[str] = []
         self._params: list[Param] = []
         self._seen: set[str] = set()
@@ -100,6 +101,7 @@ class Reader(ContentHandler, LexicalHandler):
     def _start_root(self, name: str) -> None:
         if name != ROOT:
             self._stop(f"is not a filter script: its root is <{shortened(name)}>, not <{ROOT}>")
+        self.is_script = True
 
     def _start_step(self, attrs: dict[str, str]) -> None:
         self.steps.append(Step(attrs.get("name", "")))

@@ -14,6 +14,7 @@ LARGEST_FLOAT = (2 - 2**-23) * 2.0**127
 SMALLEST_FLOAT = 2.0**-150  # halfway to the least single above zero; this half rounds to zero
 LARGEST_INT = 2**31 - 1
 LARGEST_BYTE = 255
+WHOLE = 100
 # MeshLab makes room for the number that a script says, however large.
 MOST_CHOICES = 10_000
 # Longer ones are not somebody's number, and long ones take long to read.
@@ -87,8 +88,11 @@ def _infinite(number: str) -> bool:
 
 
 def parse_percentage(text: str) -> Percentage:
-    """A number with or without a percent sign."""
-    return Percentage(parse_float(text.strip().removesuffix("%")))
+    """A number from 0 to 100, with or without a percent sign."""
+    percent = parse_float(text.strip().removesuffix("%"))
+    if not 0 <= percent <= WHOLE:
+        raise ValueError(f"is not between 0 and {WHOLE} percent")
+    return Percentage(percent)
 
 
 def show_float(value: float) -> str:

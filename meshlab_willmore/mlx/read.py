@@ -42,19 +42,24 @@ def read(path: str | PathLike[str]) -> tuple[Step, ...]:
     return read_bytes(bytes_of(Path(path)), str(path))
 
 
-def read_bytes(data: bytes, source: str) -> tuple[Step, ...]:
+def read_bytes(data: bytes, source: str, strict: bool = True) -> tuple[Step, ...]:
     """Read a filter script that is in memory; errors call it `source`.
+
+    Parameters
+    ----------
+    strict : bool
+        False: what MeshLab would skip or misread is left out, without an error.
 
     Raises
     ------
     ScriptError
-        As `read`.
+        As `read`; where `strict` is false, only if it is no script at all.
     """
     text = text_of(data, source)
     reader = Reader()
     with suppress(EnoughError):
         _parse(text, reader)
-    if reader.faults:
+    if reader.faults and (strict or not reader.is_script):
         raise ScriptError(source, reader.faults)
     return tuple(reader.steps)
 

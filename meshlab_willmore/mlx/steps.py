@@ -46,15 +46,32 @@ class Step(NamedTuple):
 
 
 class Fault(NamedTuple):
-    """What is wrong, and where; steps count from 1, and 0 stands for the whole script."""
+    """What is wrong, and where.
+
+    Attributes
+    ----------
+    text : str
+        What is wrong, in one line.
+    step : int
+        The number of the step, from 1; 0 stands for the whole script.
+    filter, param : str
+        Names as in the script, shortened if they are long; empty where there is none.
+    source : str
+        The file; empty in a `ScriptError`, which names it itself.
+    """
 
     text: str
     step: int = 0
     filter: str = ""
     param: str = ""
+    source: str = ""
 
     def __str__(self) -> str:
-        """One line: step, filter and parameter as far as they are known, then the text."""
+        """One line: file, step, filter and parameter as far as they are known, then the text."""
+        text = self._within_the_script()
+        return f"{self.source}: {text}" if self.source else text
+
+    def _within_the_script(self) -> str:
         where = f"step {self.step}" if self.step else ""
         where += f" ({self.filter})" if self.filter else ""
         where += f", parameter {self.param!r}" if self.param else ""

@@ -192,6 +192,18 @@ def test_every_old_name_of_pymeshlab_is_found():
 @pytest.mark.parametrize(
     ("old", "today"),
     [
+        ("Quadric Edge Collapse Decimation", "meshing_decimation_quadric_edge_collapse"),
+        (
+            "Quadric Edge Collapse Decimation (with texture)",
+            "meshing_decimation_quadric_edge_collapse_with_texture",
+        ),
+        ("Re-Orient all faces coherentely", "meshing_re_orient_faces_coherently"),
+        ("Remove Duplicated Vertex", "meshing_remove_duplicate_vertices"),
+        (
+            "Remove Isolated pieces (wrt Face Num)",
+            "meshing_remove_connected_component_by_face_number",
+        ),
+        ("Remove Unreferenced Vertex", "meshing_remove_unreferenced_vertices"),
         ("Compute Geometric Measures", "get_geometric_measures"),
         ("Remove Duplicate Vertices", "meshing_remove_duplicate_vertices"),
         ("Alpha Wrap", "generate_alpha_wrap"),

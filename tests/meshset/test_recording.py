@@ -22,7 +22,8 @@ SAMPLE_SCRIPT = SAMPLES / "sample_filter_script.mlx"
 
 OURS = {"flip": (FLIP, {"foldangle": 80.1}), "energy": (SCALAR, {}), "measure": (MEASURE, {})}
 NATIVE = {
-    "smooth": ("apply_coord_taubin_smoothing", {"lambda_": 0.1234567, "stepsmoothnum": 3}),
+    # PyMeshLab writes this as 0.323056, and the shortest text for it rounds to 0.323057.
+    "smooth": ("apply_coord_taubin_smoothing", {"lambda_": 0.32305647810492155}),
     # The target length is 1 % of the diagonal, a number with more digits than MeshLab writes.
     "remesh": ("meshing_isotropic_explicit_remeshing", {"iterations": 1}),
     "turn": ("compute_matrix_from_rotation", {"angle": 33.3}),
@@ -176,6 +177,43 @@ def test_text_outside_ascii_and_quotes_come_back(bumpy, tmp_path):
     assert other.current_mesh().label() == label
 
 
+def test_numbers_that_are_none_do_not_stop_a_script(bumpy, tmp_path, capfd):
+    """Scalars that are infinite give a filter an infinite default."""
+    bumpy.compute_scalar_by_function_per_vertex(q="1 / 0")
+    bumpy.compute_selection_by_scalar_per_vertex()
+    bumpy.get_willmore_measures()
+    path = str(tmp_path / "script.mlx")
+    bumpy.save_filter_script(path)
+    assert "2: willmore_measures" in printed(bumpy, capfd)
+    loaded = sphere()
+    loaded.load_filter_script(path)
+    loaded.apply_filter_script()
+    assert np.isinf(loaded.current_mesh().vertex_scalar_array()).all()
+    assert len(names(path)) == 3
+
+
+def test_an_old_form_can_be_saved_in_todays(bumpy, tmp_path):
+    path = tmp_path / "script.mlx"
+    path.write_text(
+        '<FilterScript><filter name="Willmore measures"/><xmlfilter name="Taubin Smooth">'
+        '<xmlparam name="lambda" value="0.3"/></xmlfilter></FilterScript>'
+    )
+    bumpy.load_filter_script(str(path))
+    bumpy.save_filter_script(str(path))
+    (param,) = read(path)[1].params
+    assert (param.name, param.type, param.value) == ("lambda", "RichFloat", 0.3)
+
+
+def test_names_of_files_may_be_bytes(bumpy, tmp_path):
+    bumpy.get_willmore_measures()
+    path = str(tmp_path / "script.mlx").encode()
+    bumpy.save_filter_script(path)
+    other = sphere()
+    other.load_filter_script(path)
+    other.save_filter_script(path)
+    assert names(path.decode()) == ["Willmore measures"]
+
+
 def test_a_folder_that_is_not_there_is_named(bumpy, tmp_path):
     bumpy.get_willmore_measures()
     with pytest.raises(pymeshlab.PyMeshLabException, match="nowhere"):
@@ -296,6 +334,35 @@ def test_a_native_script_knows_the_mesh_after_flips_made_before_it(tmp_path):
     assert ms.mesh_number() == 2
 
 
+@pytest.mark.parametrize("kind", [int, np.int64, np.int32])
+def test_native_filters_find_a_replaced_mesh_by_an_id_of_any_type(kind):
+    ms = two_meshes()
+    ms.apply_filter(FLIP)
+    ms.set_current_mesh(0)
+    distance = ms.get_hausdorff_distance(sampledmesh=kind(0), targetmesh=kind(1), samplenum=10)
+    assert distance["n_samples"] > 0
+
+
+def test_ids_in_a_script_without_our_steps_are_right_after_flips(tmp_path):
+    """Flips before the script began have moved the ids that the set shows."""
+    called = two_meshes()
+    called.apply_filter(FLIP)
+    called.apply_filter(SCALAR)
+    called.clear_filter_script()
+    called.create_cube()
+    cube = called.current_mesh_id()
+    flipped = next(mesh.id() for mesh in called if mesh.label() == "other")
+    called.transfer_attributes_per_vertex(sourcemesh=flipped, targetmesh=cube)
+    path = str(tmp_path / "script.mlx")
+    called.save_filter_script(path)
+    transfer = {p.name: p.value for p in read(path)[-1].params}
+    assert (transfer["SourceMesh"], transfer["TargetMesh"]) == (1, 2)
+    loaded = two_meshes()
+    loaded.load_filter_script(path)
+    loaded.apply_filter_script()
+    assert state(loaded)[-1] == state(called)[-1]
+
+
 # Scripts without our filters
 
 
@@ -359,6 +426,31 @@ def sorted_params(steps):
     ]
 
 
+WRITING_THREAD = """
+import os, threading, pymeshlab, meshlab_willmore
+lines, done = 0, threading.Event()
+def write():
+    global lines
+    while not done.is_set():
+        os.write(1, b"x\\n")
+        lines += 1
+thread = threading.Thread(target=write)
+thread.start()
+ms = pymeshlab.MeshSet()
+ms.create_torus()
+for _ in range(100):
+    ms.compute_matrix_from_rotation(angle=1.0)
+done.set()
+thread.join()
+os.write(2, str(lines).encode())
+"""
+
+
+def test_native_calls_do_not_take_the_output_of_other_threads():
+    written, counted = natively(WRITING_THREAD)
+    assert written.count("x") == int(counted)
+
+
 def test_native_calls_are_recorded_as_before(tmp_path):
     """Only what has our steps is written by this package."""
     ms = sphere()
@@ -397,8 +489,9 @@ def test_nothing_runs_of_a_script_with_a_fault(bumpy, tmp_path):
         '<filter name="Taubin smooth"/></FilterScript>'
     )
     bumpy.load_filter_script(str(path))
-    with pytest.raises(pymeshlab.PyMeshLabException, match="Taubin Smooth"):
+    with pytest.raises(pymeshlab.PyMeshLabException, match="Taubin Smooth") as caught:
         bumpy.apply_filter_script()
+    assert str(caught.value).startswith(f"{path}: step 2 (Taubin smooth): ")
     assert state(bumpy) == before
 
 

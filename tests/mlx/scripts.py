@@ -41,7 +41,9 @@ floats = st.one_of(
 bytes_of_colors = st.integers(0, 255)
 int32 = st.integers(-(2**31), 2**31 - 1)
 ids = st.integers(0, 2**31 - 1)
-percentages = st.builds(Percentage, floats)
+percentages = st.builds(
+    Percentage, floats.filter(lambda x: 0 <= x <= 100) | st.floats(0, 100, width=32)
+)
 
 
 def _repeated(values: st.SearchStrategy, count: int) -> st.SearchStrategy:

@@ -379,6 +379,16 @@ PARAMS = [
     ),
     ("percentage", one_param(kind="PercentageValue", value="x"), P + "value='x' is not a number"),
     (
+        "percentage of more than all",
+        one_param(kind="RichAbsPerc", value="150%"),
+        P + "value='150%' is not between 0 and 100 percent",
+    ),
+    (
+        "negative percentage",
+        one_param(kind="RichAbsPerc", value="-5%"),
+        P + "value='-5%' is not between 0 and 100 percent",
+    ),
+    (
         "dynamic-no-max",
         one_param(kind="RichDynamicFloat", value="1", min="0"),
         P + "attribute 'max' is missing",

@@ -38,7 +38,7 @@ MATRIX = {f"val{i}": str(i) for i in range(16)}
         ("RichEnum", {"value": "2"} | CARDINALITY, 2),
         ("RichAbsPerc", {"value": "7"} | RANGE, 7.0),
         ("RichAbsPerc", {"value": "5%"}, Percentage(5.0)),
-        ("RichAbsPerc", {"value": "-0.5 % "} | RANGE, Percentage(-0.5)),
+        ("RichAbsPerc", {"value": "+0.5 % "} | RANGE, Percentage(0.5)),
         ("PercentageValue", {"value": "5"}, Percentage(5.0)),
         ("PercentageValue", {"value": "5%"}, Percentage(5.0)),
         # Beyond its own range: MeshLab takes it as it is.

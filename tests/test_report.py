@@ -22,9 +22,13 @@ FROM_ABOVE = view_from((0.0, 0.0, 1.0), up=(0.0, 1.0, 0.0))
         (12345678.9, "12345679"),
         (1e-9, "0.00000"),
         (99999.96, "100000.0"),
+        (123456789012345.0, "123456789012345"),
+        (-1.5e78, "-1.50000e+78"),
+        (float("-inf"), "-inf"),
+        (float("nan"), "nan"),
     ],
 )
-def test_numbers_have_six_digits_and_never_an_exponent(value, text):
+def test_numbers_have_six_digits_and_an_exponent_only_if_huge(value, text):
     assert significant(value) == text
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -9,9 +10,12 @@ from typing import Any
 import click
 
 from ..mlx.steps import ScriptError
-from . import stopping
+from . import stopping, streams
 
 DOCTOR = " ('meshlab-willmore doctor' tells what is missing)"
+
+# PyMeshLab says first that it failed, at what, and in which file.
+_PRELUDE = re.compile(r"(?:Error d|D)etails:|Unable to (?:open|save) file:[^\n]*\n")
 
 
 class FaultyScript(click.ClickException):
@@ -34,6 +38,11 @@ class WrongUse(click.ClickException):
 
 class OneLineErrors(click.Group):
     """A group whose commands end with one line and a telling exit code when something fails."""
+
+    def main(self, *args: Any, **given: Any) -> Any:
+        """Begin with all standard streams in their places."""
+        streams.completed()
+        return super().main(*args, **given)
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Read the options before the command's name."""
@@ -74,6 +83,12 @@ def _wrong_use_in_one_line() -> Iterator[None]:
 def one_line(error: BaseException) -> str:
     """What an error says, in one line; its type where it says nothing."""
     return " ".join(str(error).split()) or type(error).__name__
+
+
+def reason(error: BaseException) -> str:
+    """What an error says, in one line, without what PyMeshLab puts before it."""
+    text = _PRELUDE.split(str(error))[-1]
+    return " ".join(text.split()) or type(error).__name__
 
 
 def wrong_use(text: str) -> WrongUse:

@@ -107,7 +107,7 @@ def _defaults(known: Known) -> dict[str, Any]:
             for _ in range(2):
                 native.apply(ms, "create_cube")
             return dict(ms.filter_parameter_values(known.name))
-        except pymeshlab.PyMeshLabException:
+        except native.ERRORS:
             return {}
 
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import sys
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import click
 
-from .errors import debug_option, one_line
+from . import playing, told
+from .errors import debug_option, reason
 from .masks import is_part, mask_option
 from .spelling import SeveralValues
 
@@ -76,20 +76,16 @@ def command(source: str, target: Path, parts: tuple[str, ...], force: bool, **gi
 
     Vertices never move. The ending of OUT tells the format; it is there when it is whole.
     """
-    from .inputs import expand
+    from .inputs import expand, loaded
     from .outputs import check_target
     from .saving import Wish, save
 
     path = _only(expand([source]), source)
     check_target(target, force)
-    ms = _loaded(path)
+    ms = loaded(path)
     returned = _flipped(ms, path, {k: v for k, v in given.items() if v is not None})
     save(ms, target, Wish(parts, force, path.parent))
-    click.echo(
-        f"{path} -> {target}: {returned['flips']} flips, Willmore energy "
-        f"{returned['willmore_before']:.6g} -> {returned['willmore_after']:.6g}, "
-        f"{returned['seconds']:.1f} s"
-    )
+    click.echo(f"{path} -> {target}: {told.flips(returned)}, {returned['seconds']:.1f} s")
 
 
 def _only(paths: list[Path], pattern: str) -> Path:
@@ -100,23 +96,11 @@ def _only(paths: list[Path], pattern: str) -> Path:
     return paths[0]
 
 
-def _loaded(path: Path) -> pymeshlab.MeshSet:
-    import pymeshlab
-
-    from .inputs import load
-
-    ms = pymeshlab.MeshSet()
-    load(ms, path)
-    return ms
-
-
 def _flipped(ms: pymeshlab.MeshSet, path: Path, given: dict[str, Any]) -> dict[str, Any]:
-    import pymeshlab
+    from ..meshset.native import ERRORS
 
-    if sys.stderr.isatty():
-        click.echo("flipping (the first run compiles before, which takes a while)", err=True)
+    playing.tell_of_compiling()
     try:
         return ms.apply_filter(FILTER, **given)
-    except pymeshlab.PyMeshLabException as error:
-        reason = one_line(error).partition("Details: ")[2] or one_line(error)
-        raise pymeshlab.PyMeshLabException(f"{path}: {reason}") from error
+    except ERRORS as error:
+        raise type(error)(f"{path}: {reason(error)}") from error

@@ -37,6 +37,6 @@ def _takes(ending: str, *keywords: str) -> bool:
     try:
         with native.muted():
             helper.filter_parameter_values(ending, **given)
-    except pymeshlab.PyMeshLabException:
+    except native.ERRORS:
         return False
     return True

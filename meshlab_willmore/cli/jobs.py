@@ -25,6 +25,11 @@ class Job(NamedTuple):
     outputs: tuple[Path, ...]
 
     @property
+    def files(self) -> tuple[Path, ...]:
+        """All that is read or written."""
+        return (*self.inputs, *self.outputs)
+
+    @property
     def name(self) -> str:
         """What messages call it."""
         return ", ".join(map(str, self.inputs)) or "no input"

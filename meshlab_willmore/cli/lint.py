@@ -7,7 +7,8 @@ from pathlib import Path
 import click
 
 from .columns import counted
-from .errors import debug_option, wrong_use
+from .errors import debug_option
+from .inputs import matches, refuse_folder
 
 EXAMPLES = """\b
 Examples:
@@ -45,15 +46,7 @@ def command(scripts: tuple[str, ...]) -> None:
 
 
 def _expanded(names: tuple[str, ...]) -> list[Path]:
-    import glob
-
-    paths: list[Path] = []
-    for name in names:
-        pattern = glob.has_magic(name) and not Path(name).exists()
-        found = [Path(match) for match in sorted(glob.glob(name, recursive=True))]
-        if pattern and not found:
-            raise wrong_use(f"no file matches {name!r}")
-        if Path(name).is_dir():
-            raise wrong_use(f"{name} is a folder; name the scripts, such as '{name}/*.mlx'")
-        paths += found if pattern else [Path(name)]
+    paths = [path for name in names for path in matches(name)]
+    for path in paths:
+        refuse_folder(path, "scripts", "*.mlx")
     return paths

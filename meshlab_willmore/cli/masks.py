@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import click
 
@@ -42,6 +42,27 @@ mask_option = click.option(
 def is_part(word: str) -> bool:
     """Whether a word is one of the short names."""
     return word in PARTS
+
+
+def by_output(order: Iterable[str], parts: Sequence[str]) -> list[tuple[str, ...]]:
+    """The parts for each output: what stands before the first one is for all of them.
+
+    Parameters
+    ----------
+    order : iterable of str
+        "patterns" for each output and "parts" for each part, in the order of the command line.
+    parts : sequence of str
+        The parts in that order.
+    """
+    rest = iter(parts)
+    groups: list[list[str]] = [[]]
+    for name in order:
+        if name == "patterns":
+            groups.append([])
+        elif name == "parts":
+            groups[-1].append(next(rest))
+    common, *own = groups
+    return [(*common, *group) for group in own]
 
 
 def keywords(parts: Iterable[str], ending: str) -> dict[str, bool]:

@@ -11,8 +11,8 @@ from typing import Any
 import click
 
 from .columns import in_columns
-from .errors import debug_option, one_line
-from .inputs import expand, load
+from .errors import WrongUse, debug_option, one_line, reason
+from .inputs import check, loaded, matches
 
 EXAMPLES = """\b
 Examples:
@@ -44,15 +44,52 @@ def command(files: tuple[str, ...], as_json: bool) -> None:
     A file that can't be measured is named on the standard error; the others are measured, and the
     exit code is 1 in the end.
     """
-    paths = expand(files)
+    paths, absent = _sorted_out(files)
     measured = _measure_all(paths)
     if as_json:
         click.echo(json.dumps([_for_json(row) for row in measured], indent=2))
     elif measured:
         click.echo(_table(measured))
-    failed = len(paths) - len(measured)
-    if failed:
+    if absent or len(measured) < len(paths):
         click.get_current_context().exit(1)
+
+
+def _sorted_out(names: Iterable[str]) -> tuple[list[Path], list[WrongUse]]:
+    """The files that can be tried, and what is wrong with the others, which is said.
+
+    Raises
+    ------
+    WrongUse
+        If there is nothing to try.
+    """
+    paths: list[Path] = []
+    wrong: list[WrongUse] = []
+    for name in names:
+        found, errors = _found(name)
+        paths += found
+        wrong += errors
+    if wrong and not paths:
+        raise WrongUse("; ".join(map(one_line, wrong)))
+    for error in wrong:
+        click.echo(f"Error: {one_line(error)}", err=True)
+    return paths, wrong
+
+
+def _found(name: str) -> tuple[list[Path], list[WrongUse]]:
+    try:
+        candidates = matches(name)
+    except WrongUse as error:
+        return [], [error]
+    answers = [(path, _refusal(path)) for path in candidates]
+    return [path for path, no in answers if no is None], [no for _, no in answers if no]
+
+
+def _refusal(path: Path) -> WrongUse | None:
+    try:
+        check(path)
+    except WrongUse as error:
+        return error
+    return None
 
 
 def _measure_all(paths: Iterable[Path]) -> list[dict[str, Any]]:
@@ -66,16 +103,13 @@ def _measured_or_told(path: Path) -> dict[str, Any]:
     except Exception as error:
         if isinstance(error, ImportError) or click.get_current_context().meta.get("debug"):
             raise
-        text = one_line(error).partition("Details: ")[2] or one_line(error)
+        text = reason(error)
         click.echo(f"Error: {text if str(path) in text else f'{path}: {text}'}", err=True)
         return {}
 
 
 def _measured(path: Path) -> dict[str, Any]:
-    import pymeshlab
-
-    ms = pymeshlab.MeshSet()
-    load(ms, path)
+    ms = loaded(path)
     totals = ms.apply_filter("get_willmore_measures")
     mesh = ms.current_mesh()
     sizes = {"vertices": mesh.vertex_number(), "faces": mesh.face_number()}

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import os
+import re
 import string
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -18,6 +20,11 @@ PLACEHOLDERS = {
     "dir": "the input's folder",
     "index": "1, 2, 3, ...",
 }
+
+# A width of up to two digits, filled up with blanks or zeros.
+_WIDTH = re.compile(r"0?\d{0,2}d?")
+# So much of a name is enough to know it by.
+_SHOWN = 40
 
 
 def has_placeholder(pattern: str) -> bool:
@@ -39,17 +46,21 @@ def name_for(pattern: str, source: Path, index: int) -> Path:
         "dir": str(source.parent),
         "index": index,
     }
-    for _, field, _, _ in _parsed(pattern):
-        if field is not None and field not in values:
+    for _, field, width, conversion in _parsed(pattern):
+        if field is None:
+            continue
+        if field not in values:
             known = ", ".join(f"{{{name}}}" for name in PLACEHOLDERS)
             raise wrong_use(
                 f"{{{field}}} in {pattern!r} is no placeholder; there are {known}, and a brace "
                 "itself is written twice"
             )
-    try:
-        return Path(pattern.format_map(values))
-    except ValueError as error:
-        raise wrong_use(f"the output name {pattern!r} can't be read: {error}") from error
+        if conversion or (width and not (field == "index" and _WIDTH.fullmatch(width))):
+            raise wrong_use(
+                f"the output name {pattern!r} can't be read: only {{index}} takes a width, such as "
+                "{index:03}"
+            )
+    return Path(pattern.format_map(values))
 
 
 def _parsed(pattern: str) -> list[tuple[str, str | None, str | None, str | None]]:
@@ -112,14 +123,37 @@ def check_target(path: Path, force: bool) -> None:
             f"the format of {path} is unknown: {told}; there are {', '.join(formats.COMMON)}"
         )
     writable_folder(path.parent)
+    writable_folder(_folder(path))
 
 
-def check_place(path: Path, force: bool) -> None:
-    """Raise `WrongUse` if no new file can have this name."""
+def check_place(path: Path, force: bool, example: str = "{name}.ply") -> None:
+    """Raise `WrongUse` if no new file can have this name.
+
+    Parameters
+    ----------
+    example : str
+        A name that a file in a folder could have.
+    """
+    _check_length(path)
     if path.is_dir():
-        raise wrong_use(f"{path} is a folder; name a file in it, such as '{path / '{name}.ply'}'")
-    if not path.parent.is_dir():
-        what = "is a file, no folder" if path.parent.exists() else "does not exist"
-        raise wrong_use(f"cannot write {path}: the folder {path.parent} {what}")
-    if path.exists() and not force:
+        raise wrong_use(f"{path} is a folder; name a file in it, such as '{path / example}'")
+    folder = _folder(path)
+    if not folder.is_dir():
+        what = "is a file, no folder" if folder.exists() else "does not exist"
+        raise wrong_use(f"cannot write {path}: the folder {folder} {what}")
+    # A link that leads nowhere is there as well.
+    if os.path.lexists(path) and not force:
         raise wrong_use(f"{path} is there already; --force replaces it")
+
+
+def _folder(path: Path) -> Path:
+    """Where the file will be: a link stays, and what it leads to is replaced."""
+    return Path(os.path.realpath(path)).parent if path.is_symlink() else path.parent
+
+
+def _check_length(path: Path) -> None:
+    try:
+        path.lstat()
+    except OSError as error:
+        if error.errno == errno.ENAMETOOLONG:
+            raise wrong_use(f"the output name {str(path)[:_SHOWN]}... is too long") from error

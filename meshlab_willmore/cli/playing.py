@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from . import stopping
+
 if TYPE_CHECKING:
     import pymeshlab
 
@@ -17,7 +19,9 @@ if TYPE_CHECKING:
     from .runlog import Log
 
 
-def play(ms: pymeshlab.MeshSet, calls: Sequence[Call], source: str, label: str, log: Log) -> None:
+def play(
+    ms: pymeshlab.MeshSet, calls: Sequence[Call], source: str, label: str, log: Log
+) -> list[Played]:
     """Run the steps; the filters themselves print nothing.
 
     Parameters
@@ -37,6 +41,9 @@ def play(ms: pymeshlab.MeshSet, calls: Sequence[Call], source: str, label: str, 
                 bar.current_item = call.known.name
                 bar.render_progress()
             sys.stdout.flush()
+            if not call.known.ours:
+                # No output is begun before the last step has ended.
+                quiet.enter_context(stopping.at_once())
             quiet.enter_context(muted())
 
         def after(played: Played) -> None:
@@ -45,7 +52,13 @@ def play(ms: pymeshlab.MeshSet, calls: Sequence[Call], source: str, label: str, 
             if bar is not None:
                 bar.update(1)
 
-        steps.play(ms, calls, source, before, after)
+        return steps.play(ms, calls, source, before, after)
+
+
+def tell_of_compiling() -> None:
+    """Say on a terminal why flips may begin late."""
+    if sys.stderr.isatty():
+        click.echo("flipping (the first run compiles before, which takes a while)", err=True)
 
 
 def _bar(length: int, label: str) -> AbstractContextManager[Any]:

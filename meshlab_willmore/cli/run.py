@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
+import os
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import click
 
-from . import outputs, playing
+from . import outputs, playing, results, told
 from .columns import counted
 from .errors import debug_option, one_line, wrong_use
-from .masks import is_part, mask_option
-from .spelling import SeveralValues
+from .flip import FILTER
+from .masks import by_output, is_part, mask_option
+from .spelling import SeveralValues, of_today, spelled_out
 
 if TYPE_CHECKING:
-    import pymeshlab
-
     from ..mlx.steps import Step
     from .jobs import Job
     from .runlog import Log
@@ -43,12 +43,16 @@ Examples:
 """
 
 
+# The key in click's own notes on a call.
+_ORDER = "order of options"
+
+
 class Orders(NamedTuple):
     """What the command line asks for."""
 
     source: str
     steps: tuple[Step, ...]
-    parts: tuple[str, ...]
+    parts: tuple[tuple[str, ...], ...]
     force: bool
     stop: bool
     dry_run: bool
@@ -63,6 +67,14 @@ class RunCommand(SeveralValues):
         "-m": is_part,
         "--mask": is_part,
     }
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Take meshlabserver's spelling too, and note which -m stands behind which -o."""
+        words = of_today(args)
+        parser = self.make_parser(ctx)
+        *_, order = parser.parse_args(spelled_out(words, self.several))
+        ctx.meta[_ORDER] = [option.name for option in order]
+        return super().parse_args(ctx, words)
 
 
 def _placeholders() -> str:
@@ -115,7 +127,8 @@ def command(script: str | None, also: str | None, **given: Any) -> None:
     exit code is 1 in the end.
 
     With --layers the first input is the current layer, as in meshlabserver. One -o saves the mesh
-    that is current in the end; several save the first layers, in their order.
+    that is current in the end; several save the first layers, in their order. Each -m is for
+    the -o before it; one before all of them is for all.
 
     MeshLab's window saves scripts ("Show current filter script"), and so does PyMeshLab; a short
     one stands below. 'meshlab-willmore filters' has the names, 'lint' finds what is wrong.
@@ -126,7 +139,7 @@ def command(script: str | None, also: str | None, **given: Any) -> None:
     orders = Orders(
         str(path),
         _steps(path, given["settings"]),
-        given["parts"],
+        tuple(by_output(click.get_current_context().meta[_ORDER], given["parts"])),
         given["force"],
         given["stop"],
         given["dry_run"],
@@ -134,8 +147,13 @@ def command(script: str | None, also: str | None, **given: Any) -> None:
     todo = jobs.plan(
         inputs.expand(given["inputs"]), given["patterns"], given["layers"], orders.force
     )
-    with runlog.opened(None if orders.dry_run else given["log"]) as log:
-        log.say(f"{time.strftime('%Y-%m-%d %H:%M:%S')} run {path}")
+    runlog.check(given["log"], [path, *(file for job in todo for file in job.files)])
+    if not orders.dry_run and _has_flips(orders.steps):
+        playing.tell_of_compiling()
+    with (
+        runlog.opened(None if orders.dry_run else given["log"]) as log,
+        log.run_of(orders.source),
+    ):
         _run_all(orders, todo, log)
 
 
@@ -147,7 +165,7 @@ def _script_of(script: str | None, also: str | None) -> Path:
             else "there is no script; name one, such as: run clean.mlx -i scan.ply -o clean.ply"
         )
     path = Path(script or also or "")
-    if not path.is_file():
+    if not os.path.isfile(path):
         raise wrong_use(f"there is no filter script {path}")
     return path
 
@@ -164,6 +182,12 @@ def _steps(path: Path, settings: Sequence[str]) -> tuple[Step, ...]:
     if faults:
         raise ScriptError(str(path), faults)
     return steps
+
+
+def _has_flips(steps: Iterable[Step]) -> bool:
+    from ..meshset.catalogue import find
+
+    return any(known.name == FILTER for step in steps if (known := find(step.filter)))
 
 
 def _run_all(orders: Orders, todo: Sequence[Job], log: Log) -> None:
@@ -195,65 +219,17 @@ def _told(job: Job, error: Exception) -> str:
 
 
 def _run_one(orders: Orders, job: Job, log: Log) -> str:
-    """Run the script on one set of meshes; returns a line that says what was done."""
+    """Run the script on one set of meshes; returns lines that say what was done."""
     from ..meshset.check import resolve
 
     start = time.perf_counter()
-    ms = _loaded(job, log)
+    ms = results.loaded(job, log)
     calls = resolve(orders.steps, orders.source, [mesh.id() for mesh in ms])
     if orders.dry_run:
         there = " and ".join(map(str, job.outputs)) or "no file"
         return f"{job.name}: fine; {counted(len(calls), 'step')} to run, then {there} to write"
-    playing.play(ms, calls, orders.source, Path(job.name).name, log)
-    results = _saved(ms, orders, job, log)
+    played = playing.play(ms, calls, orders.source, Path(job.name).name, log)
+    saved = results.save(ms, job, results.Wishes(orders.parts, orders.force), log)
     seconds = time.perf_counter() - start
-    return f"{job.name} -> {results}: {counted(len(calls), 'step')}, {seconds:.1f} s"
-
-
-def _loaded(job: Job, log: Log) -> pymeshlab.MeshSet:
-    import pymeshlab
-
-    from .inputs import load
-
-    ms = pymeshlab.MeshSet()
-    for path in job.inputs:
-        load(ms, path)
-        log.say(f"input {path} ({_size(ms)})")
-    if len(job.inputs) > 1:
-        ms.set_current_mesh(0)
-    return ms
-
-
-def _size(ms: pymeshlab.MeshSet) -> str:
-    mesh = ms.current_mesh()
-    return f"{mesh.vertex_number()} vertices, {mesh.face_number()} faces"
-
-
-def _layers(ms: pymeshlab.MeshSet) -> list[int]:
-    """The ids of the layers, in the order in which the script would count them."""
-    from ..meshset import layers, numbering
-
-    return sorted(layers.visible_ids(ms), key=lambda i: numbering.logical_id(ms, i))
-
-
-def _saved(ms: pymeshlab.MeshSet, orders: Orders, job: Job, log: Log) -> str:
-    from .saving import Wish, save
-
-    if not job.outputs:
-        return "not saved (no -o)"
-    if ms.mesh_number() == 0:
-        raise OSError(f"cannot write {job.outputs[0]}: the script leaves no mesh")
-    layers = _layers(ms)
-    if len(job.outputs) > len(layers):
-        left = counted(len(layers), "layer")
-        raise OSError(f"{len(job.outputs)} outputs, but the script leaves {left}")
-    origin = job.inputs[0].parent if job.inputs else None
-    wish = Wish(orders.parts, orders.force, origin)
-    texts = []
-    for place, path in enumerate(job.outputs):
-        if len(job.outputs) > 1:
-            ms.set_current_mesh(layers[place])
-        files = save(ms, path, wish)
-        log.say(f"output {' '.join(map(str, files))} ({_size(ms)})")
-        texts.append(f"{path} ({_size(ms)})")
-    return ", ".join(texts)
+    line = f"{job.name} -> {saved}: {counted(len(calls), 'step')}, {seconds:.1f} s"
+    return "\n".join([line, *told.steps(played)])

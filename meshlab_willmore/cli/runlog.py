@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+import os
+import re
 import sys
-from collections.abc import Iterator, Mapping
-from contextlib import ExitStack, contextmanager
+import time
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
+
+from ..files import writable_folder
+from .errors import wrong_use
+from .told import in_line
 
 if TYPE_CHECKING:
     from ..meshset.catalogue import Known
@@ -15,18 +22,49 @@ if TYPE_CHECKING:
 
 STANDARD_OUTPUT = "-"
 
+# How a log begins, and how many bytes of a file tell whether it is one.
+_BEGINNING = re.compile(rb"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d run ")
+_ENOUGH = 64
+
 
 class Log:
     """Lines that are on the disk as soon as they are said; without a stream, nothing."""
 
-    def __init__(self, stream: TextIO | None) -> None:
+    def __init__(self, stream: TextIO | None, name: str = "") -> None:
         self._stream = stream
+        self._name = name
 
     def say(self, line: str) -> None:
-        """Write one line."""
-        if self._stream is not None:
+        """Write one line.
+
+        Raises
+        ------
+        OSError
+            In one line, if it can't be written.
+        """
+        if self._stream is None:
+            return
+        try:
             self._stream.write(line + "\n")
             self._stream.flush()
+        except BrokenPipeError:
+            raise
+        except OSError as error:
+            raise OSError(f"cannot write the log {self._name}: {error.strerror}") from error
+
+    @contextmanager
+    def run_of(self, script: str) -> Iterator[None]:
+        """Write when a run began, and in the end how it went and how long it took."""
+        self.say(f"{time.strftime('%Y-%m-%d %H:%M:%S')} run {script}")
+        start = time.perf_counter()
+        try:
+            yield
+        except BaseException:
+            # A log that can't be written is no news beside what went wrong before.
+            with suppress(OSError):
+                self.say(f"failed, {time.perf_counter() - start:.3f} s")
+            raise
+        self.say(f"done, {time.perf_counter() - start:.3f} s")
 
     def begin(self, call: Call, count: int) -> None:
         """Write which step comes, and its parameters."""
@@ -38,8 +76,58 @@ class Log:
         """Write how long a step took, and what it returned."""
         self.say(f"  time: {played.seconds:.3f} s")
         if played.returned:
-            returned = ", ".join(f"{k}={_shown(v)}" for k, v in played.returned.items())
+            returned = ", ".join(f"{k}={in_line(v)}" for k, v in played.returned.items())
             self.say(f"  returned: {returned}")
+
+
+def check(path: str | None, others: Iterable[Path]) -> None:
+    """Raise now if no log can be written at `path`, so that nothing is computed in vain.
+
+    Parameters
+    ----------
+    path : str or None
+        As for `opened`.
+    others : iterable of Path
+        Files that a log must never be written into.
+
+    Raises
+    ------
+    WrongUse
+        If the name can't be right: another file's, or that of a file that is no log.
+    OSError
+        If nothing can be written there.
+    """
+    if path is None or path == STANDARD_OUTPUT:
+        return
+    log = Path(path)
+    for other in others:
+        if _is_same(log, other):
+            raise wrong_use(f"-l {path}: the log would be written into {other}; give it a new name")
+    if os.path.isdir(log):
+        raise wrong_use(f"-l {path} is a folder; name a file in it, such as '{log / 'log.txt'}'")
+    if os.path.isfile(log):
+        _check_log(log)
+    elif not os.path.isdir(log.parent):
+        raise wrong_use(f"cannot write the log {path}: there is no folder {log.parent}")
+    elif not os.path.lexists(log):
+        writable_folder(log.parent)
+
+
+def _is_same(left: Path, right: Path) -> bool:
+    if os.path.realpath(left) == os.path.realpath(right):
+        return True
+    return os.path.exists(left) and os.path.exists(right) and os.path.samefile(left, right)
+
+
+def _check_log(log: Path) -> None:
+    try:
+        with log.open("rb") as file:
+            beginning = file.read(_ENOUGH)
+        log.open("ab").close()
+    except OSError as error:
+        raise OSError(f"cannot write the log {log}: {error.strerror}") from error
+    if beginning and not _BEGINNING.match(beginning):
+        raise wrong_use(f"-l {log}: this file is no log of a run; give the log a new name")
 
 
 @contextmanager
@@ -57,14 +145,18 @@ def opened(path: str | None) -> Iterator[Log]:
         In one line, if the file can't be written.
     """
     if path is None or path == STANDARD_OUTPUT:
-        yield Log(sys.stdout if path else None)
+        yield Log(sys.stdout if path else None, "on the standard output")
         return
-    with ExitStack() as stack:
-        try:
-            stream = stack.enter_context(Path(path).open("a", encoding="utf-8"))
-        except OSError as error:
-            raise OSError(f"cannot write the log {path}: {error.strerror}") from error
-        yield Log(stream)
+    try:
+        # Closed by hand: what is left of a full disk's log must not hide what was said of it.
+        stream = Path(path).open("a", encoding="utf-8", errors="backslashreplace")  # noqa: SIM115
+    except OSError as error:
+        raise OSError(f"cannot write the log {path}: {error.strerror}") from error
+    try:
+        yield Log(stream, path)
+    finally:
+        with suppress(OSError):
+            stream.close()
 
 
 def _given(known: Known, given: Mapping[str, Any]) -> str:
@@ -79,10 +171,4 @@ def _value(known: Known, keyword: str, value: Any) -> str:
         return repr(param.choices[value])
     if isinstance(value, Percentage):
         return f"{value.percent:g}%"
-    return _shown(value)
-
-
-def _shown(value: Any) -> str:
-    """A value in one line; arrays as lists."""
-    plain = value.tolist() if hasattr(value, "tolist") else value
-    return " ".join(repr(plain).split())
+    return in_line(value)

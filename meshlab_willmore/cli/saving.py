@@ -8,26 +8,22 @@ from __future__ import annotations
 
 import filecmp
 import os
-import shutil
-import tempfile
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
-from . import textures
+from . import attributes, textures
+from .errors import reason
 from .masks import TEXTURED, keywords, not_held
+from .placing import beside, put
 
 if TYPE_CHECKING:
     import pymeshlab
 
 # Where a writer had to stop, not even so much more goes into its file.
 _ROOM = 65536
-
-# A file name takes 255 bytes; a letter up to four.
-_LONGEST_STEM = 40
 
 
 class Wish(NamedTuple):
@@ -59,7 +55,7 @@ def save(ms: pymeshlab.MeshSet, path: Path, wish: Wish) -> list[Path]:
     note = not_held(wish.parts, path.suffix.lstrip("."))
     if note:
         click.echo(f"Note: {note}", err=True)
-    with _beside(path) as folder:
+    with beside(path) as folder:
         images = _textures(ms, path, wish)
         draft = _inside(folder, images) / path.name
         _write(ms, draft, path, wish)
@@ -72,18 +68,6 @@ def save(ms: pymeshlab.MeshSet, path: Path, wish: Wish) -> list[Path]:
         _check_free(moves, path, wish.force)
         _place(moves)
     return [target for _, target in reversed(moves)]
-
-
-@contextmanager
-def _beside(path: Path) -> Iterator[Path]:
-    try:
-        name = tempfile.mkdtemp(prefix=f".{path.stem[:_LONGEST_STEM]}.", dir=path.parent)
-    except OSError as error:
-        raise OSError(f"cannot write {path}: {error.strerror}") from error
-    try:
-        yield Path(name)
-    finally:
-        shutil.rmtree(name, ignore_errors=True)
 
 
 def _textures(ms: pymeshlab.MeshSet, path: Path, wish: Wish) -> dict[str, pymeshlab.Image]:
@@ -101,24 +85,36 @@ def _inside(folder: Path, names: Iterable[str]) -> Path:
 
 def _write(ms: pymeshlab.MeshSet, draft: Path, path: Path, wish: Wish) -> None:
     """Write the current mesh at `draft`; errors call it `path`."""
-    from pymeshlab import PyMeshLabException
+    if wish.parts:
+        _write_with(ms, draft, path, keywords(wish.parts, path.suffix.lstrip(".")))
+        return
+    custom = attributes.of(ms)
+    if custom and path.suffix.lower() != ".ply":
+        click.echo(f"Note: {path.suffix} files hold no custom attributes", err=True)
+        custom = ()
+    _write_with(ms, draft, path, dict.fromkeys(custom, True))
+    odd = attributes.odd(draft, custom) if custom else ()
+    if odd:
+        click.echo("Note: custom attributes with odd names are not saved", err=True)
+        _write_with(ms, draft, path, {key: True for key in custom if key not in odd})
 
+
+def _write_with(ms: pymeshlab.MeshSet, draft: Path, path: Path, flags: dict[str, bool]) -> None:
     from ..meshset import native
 
     native.forget_failures()
-    flags = keywords(wish.parts, path.suffix.lstrip("."))
-    reason = ""
+    why = ""
     try:
         with native.muted():
             ms.save_current_mesh(str(draft), save_textures=False, **flags)
-    except (PyMeshLabException, RuntimeError) as error:
-        reason = str(error).strip().splitlines()[-1]
+    except native.ERRORS as error:
+        why = reason(error)
     if not draft.is_file() or draft.stat().st_size == 0:
-        reason = reason or f"PyMeshLab wrote no {path.suffix} file"
+        why = why or f"PyMeshLab wrote no {path.suffix} file"
     else:
         _check_whole(draft, path)
-    if reason:
-        raise OSError(f"cannot write {path}: {reason}")
+    if why:
+        raise OSError(f"cannot write {path}: {why}")
 
 
 def _moves(folder: Path, draft: Path, path: Path) -> list[tuple[Path, Path]]:
@@ -152,7 +148,7 @@ def _check_free(moves: list[tuple[Path, Path]], path: Path, force: bool) -> None
     for source, target in moves:
         if target.is_file() and filecmp.cmp(source, target, shallow=False) and target != path:
             continue
-        if target.exists() and not force:
+        if os.path.lexists(target) and not force:
             raise FileExistsError(f"cannot write {path}: {target} is there; --force replaces it")
 
 
@@ -165,8 +161,8 @@ def _place(moves: list[tuple[Path, Path]]) -> None:
         try:
             for source, target in moves:
                 target.parent.mkdir(parents=True, exist_ok=True)
-                is_new = not target.exists()
-                os.replace(source, target)
+                is_new = not os.path.lexists(target)
+                put(source, target)
                 placed += [target] if is_new else []
         except OSError as error:
             for new in placed:

@@ -7,6 +7,8 @@ from typing import ClassVar
 
 import click
 
+from .errors import wrong_use
+
 # Whether a word still belongs to the option before it.
 Belongs = Callable[[str], bool]
 
@@ -19,6 +21,31 @@ class SeveralValues(click.Command):
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Spell the arguments out, then read them as click does."""
         return super().parse_args(ctx, spelled_out(args, self.several))
+
+
+# What meshlabserver had, and what does that now.
+GONE = {
+    "-p": "projects are not read; name their meshes after -i, with --layers",
+    "-w": "projects are not written; each layer can have an -o of its own",
+    "-x": "--force replaces files that are there",
+    "-d": "'meshlab-willmore filters' lists the filters and their parameters",
+}
+RENAMED = {"-om": "-m"}
+
+
+def of_today(args: Sequence[str]) -> list[str]:
+    """The arguments with today's names of options.
+
+    Raises
+    ------
+    WrongUse
+        For an option of `meshlabserver` that is gone, naming what does its work.
+    """
+    end = list(args).index("--") if "--" in args else len(args)
+    for word in args[:end]:
+        if word in GONE:
+            raise wrong_use(f"{word} of meshlabserver is gone: {GONE[word]}")
+    return [*(RENAMED.get(word, word) for word in args[:end]), *args[end:]]
 
 
 def spelled_out(args: Sequence[str], several: Mapping[str, Belongs]) -> list[str]:

@@ -63,15 +63,13 @@ def write(image: pymeshlab.Image, file: Path, originals: Iterable[Path]) -> None
 
 
 def _as_png(image: pymeshlab.Image, beside: Path) -> Path:
-    import pymeshlab
-
     from ..meshset import native
 
     path = beside.with_name(beside.name + ".png")
     try:
         with native.muted():
             image.save(str(path), _FASTEST)
-    except (pymeshlab.PyMeshLabException, RuntimeError) as error:
+    except native.ERRORS as error:
         raise OSError(f"cannot write the texture {beside.name}; is the disk full?") from error
     return path
 
@@ -83,6 +81,7 @@ def _shows(file: Path, drawn: Path) -> bool:
 
     from ..meshset import native
 
+    unreadable: tuple[type[Exception], ...] = (*native.ERRORS, ValueError)
     ms = pymeshlab.MeshSet()
     native.add(ms, pymeshlab.Mesh(np.eye(3), [[0, 1, 2]], w_tex_coords_matrix=np.zeros((3, 2))))
     with tempfile.TemporaryDirectory(dir=drawn.parent) as folder:
@@ -92,7 +91,7 @@ def _shows(file: Path, drawn: Path) -> bool:
                 native.apply(ms, "set_texture_per_mesh", textname=str(file))
             (image,) = ms.current_mesh().textures().values()
             image.save(str(copy), _FASTEST)
-        except (pymeshlab.PyMeshLabException, RuntimeError, ValueError):
+        except unreadable:
             native.forget_failures()
             return False
         return filecmp.cmp(drawn, copy, shallow=False)

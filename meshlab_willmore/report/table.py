@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from itertools import groupby
 from typing import NamedTuple
 
 DIGITS = 6
+# A double has no more whole digits.
+HUGE = 1e15
 GAP = "  "
 INDENT = "  "
 LEGEND = (
@@ -72,6 +75,10 @@ def _cells(stage: Stage) -> tuple[str, ...]:
 
 
 def significant(value: float) -> str:
-    """Write a number with six digits, or with all before the point; never as 1e+06."""
+    """Write a number with six digits, or with all before the point; huge ones with an exponent."""
+    if not math.isfinite(value):
+        return str(value)
+    if abs(value) >= HUGE:
+        return f"{value:.{DIGITS - 1}e}"
     decimals = DIGITS - len(str(int(abs(value))))
     return f"{value:.{max(decimals, 0)}f}"

@@ -63,3 +63,12 @@ def test_an_unknown_name_gets_the_closest():
     assert result.stderr.startswith("Error: there is no filter 'Taubn Smooth'; the closest are")
     assert "Taubin Smooth" in result.stderr
     assert result.stderr.count("\n") == 1
+
+
+def test_every_filter_is_explained():
+    # PyMeshLab has no defaults to tell where a mesh lacks what the filter needs.
+    names = pymeshlab.filter_list()
+    results = {name: call("filters", name) for name in names}
+    failed = {n: r.stderr for n, r in results.items() if r.exit_code or r.stderr}
+    assert failed == {}
+    assert all(results[name].stdout.startswith(f"{name}\n") for name in names)

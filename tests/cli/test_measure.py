@@ -53,9 +53,35 @@ def test_what_is_no_number_is_null_in_json():
     assert measure_module._for_json(row) == shown
 
 
+def test_what_is_absent_does_not_stop_the_others():
+    cube_file()
+    Path("empty.ply").touch()
+    result = call("measure", "cube.ply", "*.ply", "no.ply", "*.off", "--json")
+    assert result.exit_code == 1
+    assert [row["file"] for row in json.loads(result.stdout)] == ["cube.ply", "cube.ply"]
+    assert result.stderr == (
+        "Error: empty.ply is empty (0 bytes)\n"
+        "Error: there is no file no.ply\n"
+        "Error: no file matches '*.off'\n"
+    )
+
+
+@pytest.mark.parametrize(("size", "area"), [("1e200", "inf"), ("1e60", "2.36603e+120")])
+def test_totals_that_are_huge_or_infinite_fit_into_the_table(size, area):
+    points = f"0 0 0\n{size} 0 0\n0 {size} 0\n0 0 {size}\n"
+    Path("big.off").write_text(f"OFF\n4 4 0\n{points}3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n")
+    result = call("measure", "big.off")
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert result.stdout.splitlines()[2].split()[4] == area
+
+
 @pytest.mark.parametrize(
     ("arguments", "line"),
-    [([], "Missing argument 'IN...'."), (["no.ply"], "there is no file no.ply")],
+    [
+        ([], "Missing argument 'IN...'."),
+        (["no.ply"], "there is no file no.ply"),
+        (["no.ply", "*.off"], "there is no file no.ply; no"),
+    ],
 )
 def test_wrong_use(arguments, line):
     result = call("measure", *arguments)

@@ -1,7 +1,9 @@
 """`run`: scripts on files, one after the other, and what is said about it."""
 
+import io
 import os
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -10,7 +12,7 @@ import numpy as np
 import pymeshlab
 import pytest
 
-from meshlab_willmore.cli import playing
+from meshlab_willmore.cli import main, playing, told
 
 from .conftest import (
     FLIP,
@@ -23,6 +25,11 @@ from .conftest import (
     same_mesh,
     script_file,
     spawn,
+)
+
+FLIPPED = (
+    r"  step 1, meshing_edge_flip_by_willmore_optimization: "
+    r"6 flips, Willmore energy 45\.757 -> 29\.9173\n"
 )
 
 
@@ -50,16 +57,17 @@ def test_output_is_what_the_same_calls_in_python_make(script, cube):
     result = call("run", script, "-i", cube, "-o", "out.ply")
     assert (result.exit_code, result.stderr) == (0, "")
     assert re.fullmatch(
-        r"cube\.ply -> out\.ply \(14 vertices, 24 faces\): 2 steps, \d+\.\d s\n", result.stdout
+        r"cube\.ply -> out\.ply \(14 vertices, 24 faces\): 2 steps, \d+\.\d s\n" + FLIPPED,
+        result.stdout,
     )
     assert same_mesh("out.ply", expected("expected.ply"))
     assert listing() == ["cube.ply", "expected.ply", "out.ply", "script.mlx"]
 
 
-def test_in_a_process_of_its_own_it_prints_a_line_and_nothing_else(script, cube):
+def test_in_a_process_of_its_own_it_prints_the_result_and_nothing_else(script, cube):
     done = spawn("run", script, "-i", cube, "-o", "out.ply")
     assert (done.returncode, done.stderr) == (0, "")
-    assert re.fullmatch(r"cube\.ply -> out\.ply \(.*\): 2 steps, .* s\n", done.stdout)
+    assert re.fullmatch(r"cube\.ply -> out\.ply \(.*\): 2 steps, .* s\n" + FLIPPED, done.stdout)
 
 
 @pytest.mark.parametrize(
@@ -68,6 +76,7 @@ def test_in_a_process_of_its_own_it_prints_a_line_and_nothing_else(script, cube)
         ["-s", "script.mlx", "-i", "cube.ply", "-o", "out.ply"],
         ["-i", "cube.ply", "script.mlx", "-o", "out.ply"],
         ["-i", "cube.ply", "-o", "out.ply", "-m", "vc", "vn", "script.mlx"],
+        ["-i", "cube.ply", "-o", "out.ply", "-om", "vc", "vn", "-s", "script.mlx"],
         ["--output", "out.ply", "--input", "cube.ply", "--script", "script.mlx"],
     ],
 )
@@ -85,7 +94,7 @@ def test_several_inputs_have_an_output_each(script, cube):
     result = call("run", script, "-i", "*.ply", "-o", "out/{index:02}-{name}_flipped.{ext}")
     assert result.exit_code == 0
     assert listing("out") == ["01-cube_flipped.ply", "02-other_flipped.ply"]
-    assert [line.split(" -> ")[0] for line in result.stdout.splitlines()] == [
+    assert [line.split(" -> ")[0] for line in result.stdout.splitlines()[::2]] == [
         "cube.ply",
         "other.ply",
     ]
@@ -199,6 +208,23 @@ def no_step(monkeypatch):
         (["script.mlx", "-i", "cube.ply", "-o", "folder"], "folder is a folder; name a file in it"),
         (["script.mlx", "-i", "cube.ply", "-o", "{nam}.ply"], "{nam} in '{nam}.ply' is no placeho"),
         (["script.mlx", "-i", "cube.ply", "-o", "{.ply"], "the output name '{.ply' can't be read"),
+        (
+            ["script.mlx", "-i", "cube.ply", "-o", "{name:>99999999}.ply"],
+            "the output name '{name:>99999999}.ply' can't be read: only {index} takes a width",
+        ),
+        (["script.mlx", "-i", "cube.ply", "-o", "{index:999}.ply"], "the output name '{index:999}"),
+        (["script.mlx", "-i", "cube.ply", "-o", "{index:{foo}}.ply"], "the output name '{index:{"),
+        (["script.mlx", "-i", "cube.ply", "-o", "{name!r}.ply"], "the output name '{name!r}.ply'"),
+        (
+            ["script.mlx", "-i", "cube.ply", "-o", "n" * 300 + ".ply"],
+            f"the output name {'n' * 40}... is too long",
+        ),
+        (["script.mlx", "-i", "n" * 300 + ".ply"], f"there is no file {'n' * 300}.ply"),
+        (["s" * 300 + ".mlx"], f"there is no filter script {'s' * 300}.mlx"),
+        (["script.mlx", "-p", "a.mlp"], "-p of meshlabserver is gone: projects are not read; name"),
+        (["script.mlx", "-w", "a.mlp"], "-w of meshlabserver is gone: projects are not written"),
+        (["script.mlx", "-i", "cube.ply", "-x"], "-x of meshlabserver is gone: --force replaces"),
+        (["-d", "list.txt"], "-d of meshlabserver is gone: 'meshlab-willmore filters' lists"),
         (["script.mlx", "-o", "{name}.ply"], "-o {name}.ply: there is no input to take a name fro"),
         (["script.mlx", "-i", "cube.ply", "two.ply", "-o", "a.ply"], "2 inputs need one -o with a"),
         (
@@ -274,11 +300,12 @@ def test_a_dry_run_checks_all_and_writes_nothing(monkeypatch, script, cube):
 
 def test_the_log_has_parameters_times_and_what_came_back(cube):
     script = script_file((FLIP[0], {"energy": ("RichEnum", '1" enum_cardinality="2')}), TAUBIN)
-    Path("log.txt").write_text("before\n")
+    before = "2020-02-20 20:20:20 run older.mlx"
+    Path("log.txt").write_text(before + "\n")
     assert call("run", script, "-i", cube, "-o", "out.ply", "-l", "log.txt").exit_code == 0
     lines = Path("log.txt").read_text().splitlines()
     # meshlabserver, too, wrote behind what was there.
-    assert lines[0] == "before"
+    assert lines[0] == before
     assert lines[1].endswith(" run script.mlx")
     assert lines[2] == "input cube.ply (14 vertices, 24 faces)"
     assert lines[3] == (
@@ -292,6 +319,8 @@ def test_the_log_has_parameters_times_and_what_came_back(cube):
         "  parameters: stepsmoothnum=2",
     ]
     assert lines[10] == "output out.ply (14 vertices, 24 faces)"
+    assert re.fullmatch(r"done, \d+\.\d{3} s", lines[11])
+    assert len(lines) == 12
 
 
 def test_the_log_is_there_when_a_step_fails(cube):
@@ -305,20 +334,15 @@ def test_the_log_is_there_when_a_step_fails(cube):
     log = Path("log.txt").read_text()
     assert "step 1 of 2: set_selection_all" in log
     assert f"error: {result.stderr.removeprefix('Error: ')}" in log
+    assert re.fullmatch(r"failed, \d+\.\d{3} s", log.splitlines()[-1])
     assert not Path("out.ply").exists()
-
-
-def test_a_log_that_cannot_be_written_is_found_before(monkeypatch, script, cube):
-    no_step(monkeypatch)
-    result = call("run", script, "-i", cube, "-l", "no/log.txt")
-    assert result.exit_code == 1
-    assert result.stderr == "Error: cannot write the log no/log.txt: No such file or directory\n"
 
 
 def test_a_log_on_the_terminal(script, cube):
     result = call("run", script, "-i", cube, "-l", "-")
     assert "step 2 of 2: apply_coord_taubin_smoothing (Taubin Smooth)\n" in result.stdout
-    assert result.stdout.splitlines()[-1].startswith("cube.ply -> not saved")
+    assert "\ncube.ply -> not saved" in result.stdout
+    assert result.stdout.splitlines()[-1].startswith("done, ")
 
 
 def test_settings_replace_values_of_the_script(script, cube):
@@ -361,3 +385,93 @@ def test_no_progress_bar_in_a_pipe(script, cube):
     result = call("run", script, "-i", cube)
     assert "\r" not in result.output
     assert "[#" not in result.output
+
+
+def test_each_mask_is_for_the_output_before_it():
+    cube_file("other.ply")
+    script = script_file(TAUBIN)
+    outputs = ["-m", "vn", "-o", "a.ply", "-m", "vc", "-o", "b.ply", "-o", "c.ply", "--mask=vq"]
+    result = call("run", script, "-i", cube_file(), "other.ply", "other.ply", "--layers", *outputs)
+    assert result.exit_code == 0, result.stderr
+    parts = {"nx": "vn", "red": "vc", "quality": "vq"}
+
+    def saved(path):
+        words = Path(path).read_bytes().partition(b"end_header")[0].decode().split()
+        return {part for word, part in parts.items() if word in words}
+
+    assert [saved(f"{name}.ply") for name in "abc"] == [{"vn", "vc"}, {"vn"}, {"vn", "vq"}]
+
+
+def test_what_steps_return_is_told_in_short(cube):
+    script = script_file(
+        ("Select All", {}), ("Willmore measures", {}), ("Compute Geometric Measures", {})
+    )
+    first, ours, native = call("run", script, "-i", cube).stdout.splitlines()
+    assert first.startswith("cube.ply -> not saved (no -o): 3 steps, ")
+    assert ours.startswith("  step 2, get_willmore_measures: area 6.22709, ")
+    assert "willmore_energy 45.757" in ours
+    assert native.startswith("  step 3, get_geometric_measures: ")
+    assert "surface_area 6.22709" in native
+    assert "bbox [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]], " in native
+
+
+def test_long_values_are_cut():
+    assert told._short(2 / 3) == "0.666667"
+    assert told._short(np.array([[1 / 3, 1e-9], [1e300, np.inf]])) == (
+        "[[0.333333, 1e-09], [1e+300, inf]]"
+    )
+    assert told._short(np.arange(3)) == "[0, 1, 2]"
+    assert told._short(np.zeros(1000)) == str([0.0] * 1000)[:60] + "..."
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+@pytest.mark.parametrize(
+    ("step", "dry", "times"),
+    [(FLIP, [], 1), (FLIP, ["--dry-run"], 0), (TAUBIN, [], 0)],
+)
+def test_on_a_terminal_flips_are_announced_once(monkeypatch, cube, step, dry, times):
+    cube_file("other.ply")
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    orders = ["run", str(script_file(step)), "-i", "*.ply", *dry]
+    main(orders, standalone_mode=False)
+    assert sys.stderr.getvalue().count("flipping (the first run compiles before") == times
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a shell of POSIX")
+@pytest.mark.parametrize("closed", [">&-", "2>&-", "<&- >&- 2>&-"])
+def test_closed_streams_are_no_matter(script, cube, closed):
+    # The log would get the free descriptor.
+    orders = f"run {script} -i {cube} -o out.ply -l log.txt"
+    command = f"{shlex.quote(sys.executable)} -m meshlab_willmore {orders} {closed}"
+    done = subprocess.run(
+        ["/bin/sh", "-c", command], capture_output=True, text=True, check=False, timeout=100
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert same_mesh("out.ply", expected("expected.ply"))
+    lines = Path("log.txt").read_text().splitlines()
+    assert len(lines) == 11
+    assert lines[-1].startswith("done, ")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a shell of POSIX")
+def test_a_log_on_a_closed_output_goes_nowhere(script, cube):
+    command = f"{shlex.quote(sys.executable)} -m meshlab_willmore run {script} -i {cube} -l - >&-"
+    done = subprocess.run(
+        ["/bin/sh", "-c", command], capture_output=True, text=True, check=False, timeout=100
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a shell of POSIX")
+def test_no_file_takes_the_place_of_a_closed_stream():
+    code = (
+        "import os, sys; from meshlab_willmore.cli import streams; streams.completed(); "
+        "sys.exit(os.open('new', os.O_CREAT | os.O_WRONLY))"
+    )
+    command = f"{shlex.quote(sys.executable)} -c {shlex.quote(code)} <&- >&- 2>&-"
+    # The exit code is the new file's descriptor.
+    assert subprocess.run(["/bin/sh", "-c", command], check=False, timeout=100).returncode > 2

@@ -1,15 +1,18 @@
 """Saving: whole or not at all, with textures and materials, and never over somebody's file."""
 
 import os
+import stat
 import subprocess
 import sys
 from pathlib import Path
 
+import click
 import numpy as np
 import pymeshlab
 import pytest
 
 from meshlab_willmore.cli import saving, textures
+from meshlab_willmore.cli.outputs import check_place
 from meshlab_willmore.cli.saving import Wish, save
 from tests import meshes
 
@@ -17,6 +20,8 @@ from .conftest import SAMPLES, cube_file, listing, loaded, same_mesh
 
 TEXTURED = SAMPLES / "bunny10k_textured.obj"
 IMAGE = "TextureDouble_A.png"
+
+POSIX = pytest.mark.skipif(sys.platform == "win32", reason="modes and links of POSIX")
 
 # A DAE has the date in it; the first 3DS of a process differs from the next ones.
 VARYING = {"dae", "3ds"}
@@ -205,15 +210,14 @@ def test_checking_leaves_the_file_as_it_is(tmp_path):
 
 
 def test_a_format_of_which_nothing_is_written(tmp_path):
-    class Silent:
-        def __init__(self, ms):
-            self.current_mesh = ms.current_mesh
-
+    class Silent(pymeshlab.MeshSet):
         def save_current_mesh(self, *_arguments, **_named):
             pass
 
+    silent = Silent()
+    silent.add_mesh(pymeshlab.Mesh(*meshes.cube()))
     with pytest.raises(OSError, match=r"cannot write .*a\.ply: PyMeshLab wrote no \.ply file"):
-        save(Silent(cube_set()), tmp_path / "a.ply", Wish())
+        save(silent, tmp_path / "a.ply", Wish())
     assert listing(tmp_path) == []
 
 
@@ -255,6 +259,103 @@ def test_an_older_file_is_replaced_only_when_forced(tmp_path):
     save(cube_set(), path, Wish(force=True))
     assert np.array_equal(loaded(path).faces, meshes.cube()[1])
     assert listing(tmp_path) == ["a.ply"]
+
+
+@POSIX
+def test_a_file_that_is_replaced_hands_on_its_mode(tmp_path):
+    path = tmp_path / "a.ply"
+    path.touch()
+    path.chmod(0o640)
+    save(cube_set(), path, Wish(force=True))
+    assert stat.S_IMODE(path.stat().st_mode) == 0o640
+    assert path.stat().st_size > 0
+
+
+@POSIX
+def test_a_link_stays_and_leads_to_the_new_mesh(tmp_path):
+    folder = tmp_path / "elsewhere"
+    folder.mkdir()
+    real = folder / "real.ply"
+    real.write_text("older")
+    link = tmp_path / "a.ply"
+    link.symlink_to(real)
+    with pytest.raises(OSError, match="is there; --force replaces it"):
+        save(cube_set(), link, Wish())
+    assert real.read_text() == "older"
+    save(cube_set(), link, Wish(force=True))
+    assert link.is_symlink()
+    assert np.array_equal(loaded(real).faces, meshes.cube()[1])
+    assert (listing(tmp_path), listing(folder)) == (["a.ply", "elsewhere"], ["real.ply"])
+
+
+@POSIX
+def test_a_link_that_leads_nowhere_is_there(tmp_path):
+    link = tmp_path / "a.ply"
+    link.symlink_to("real.ply")
+    with pytest.raises(click.ClickException, match="is there already; --force"):
+        check_place(link, force=False)
+    with pytest.raises(OSError, match="is there; --force replaces it"):
+        save(cube_set(), link, Wish())
+    assert listing(tmp_path) == ["a.ply"]
+    save(cube_set(), link, Wish(force=True))
+    assert link.is_symlink()
+    assert listing(tmp_path) == ["a.ply", "real.ply"]
+
+
+@POSIX
+def test_a_link_into_no_folder_is_found_before(tmp_path):
+    link = tmp_path / "a.ply"
+    link.symlink_to("no/real.ply")
+    with pytest.raises(click.ClickException, match=r"cannot write .*a\.ply: the folder .*no does"):
+        check_place(link, force=True)
+
+
+# Custom attributes
+
+
+def with_attributes(*names):
+    ms = cube_set()
+    mesh = ms.current_mesh()
+    for place, name in enumerate(names):
+        mesh.add_vertex_custom_scalar_attribute(np.arange(14.0) + place, name)
+    mesh.add_vertex_custom_point_attribute(np.ones((14, 3)), "Points")
+    mesh.add_face_custom_scalar_attribute(np.arange(24.0), "on_faces")
+    mesh.add_face_custom_point_attribute(np.ones((24, 3)), "on_faces_too")
+    return ms
+
+
+def properties(path):
+    return {line.split()[-1] for line in header(path).splitlines() if line.startswith("property")}
+
+
+def test_custom_attributes_are_saved(tmp_path, capsys):
+    ms = with_attributes("Mine", "thickness-2")
+    save(ms, tmp_path / "all.PLY", Wish())
+    new = {"Mine", "thickness-2", "Points", "on_faces", "on_faces_too"}
+    save(cube_set(), tmp_path / "none.ply", Wish())
+    assert properties(tmp_path / "all.PLY") - properties(tmp_path / "none.ply") == new
+    assert capsys.readouterr().err == ""
+    # A mask says all that is wanted.
+    save(ms, tmp_path / "some.ply", Wish(parts=("vq",)))
+    assert not new & properties(tmp_path / "some.ply")
+
+
+def test_formats_without_custom_attributes_say_so(tmp_path, capsys):
+    save(with_attributes("a"), tmp_path / "a.stl", Wish())
+    assert capsys.readouterr().err == "Note: .stl files hold no custom attributes\n"
+    save(cube_set(), tmp_path / "b.stl", Wish())
+    assert capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize("name", ["a b", "a\nend_header", "", "a\nproperty float x"])
+def test_attributes_with_odd_names_spoil_nothing(tmp_path, capsys, name):
+    path = tmp_path / "a.ply"
+    save(with_attributes("good", name), path, Wish())
+    # What stands behind the end of the header can't be told from it.
+    assert "good" in properties(path) or "end_header" in name
+    assert same_mesh(path, cube_file(tmp_path / "b.ply"))
+    told = "Note: custom attributes with odd names are not saved\n" if name else ""
+    assert capsys.readouterr().err == told
 
 
 def test_the_files_have_the_usual_permissions(tmp_path):

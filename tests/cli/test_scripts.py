@@ -1,5 +1,7 @@
 """`lint` and `convert`: scripts without meshes."""
 
+import stat
+import sys
 from pathlib import Path
 
 import pytest
@@ -7,6 +9,8 @@ import pytest
 from meshlab_willmore import script
 
 from .conftest import FLIP, TAUBIN, call, listing, script_file
+
+POSIX = pytest.mark.skipif(sys.platform == "win32", reason="modes and links of POSIX")
 
 OLD = """<!DOCTYPE FilterScript>
 <FilterScript>
@@ -54,7 +58,7 @@ def test_every_fault_of_every_script_has_a_line():
     ("arguments", "line"),
     [
         ([], "Missing argument 'SCRIPT...'."),
-        (["."], ". is a folder; name the scripts, such as './*.mlx'"),
+        (["."], ". is a folder; name the scripts in it, such as '*.mlx'"),
         (["*.mlx"], "no file matches '*.mlx'"),
     ],
 )
@@ -123,6 +127,7 @@ def test_a_script_with_faults_is_not_converted():
     [
         (["no.mlx", "b.mlx"], "there is no filter script no.mlx"),
         (["a.mlx", "a.mlx"], "a.mlx is there already; --force replaces it"),
+        (["a.mlx", "."], ". is a folder; name a file in it, such as 'today.mlx'"),
         (["a.mlx", "no/b.mlx"], "cannot write no/b.mlx: the folder no does not exist"),
     ],
 )
@@ -133,3 +138,30 @@ def test_convert_wrong_use(arguments, line):
     assert result.exit_code == 2
     assert result.stderr == f"Error: {line}\n"
     assert path.read_text() == before
+
+
+def test_comments_and_an_empty_result_are_told():
+    path = script_file(FLIP, path="a.mlx")
+    path.write_text(path.read_text().replace("<FilterScript>\n", "<FilterScript>\n<!-- why -->\n"))
+    result = call("convert", "a.mlx", "b.mlx", "--meshlab")
+    assert (result.exit_code, result.stdout) == (
+        0,
+        "a.mlx -> b.mlx: 0 of 1 steps\n"
+        "nothing is left: b.mlx has no steps\n"
+        "left out: the comments\n"
+        "left out: step 1, Willmore flipping optimization\n",
+    )
+    assert "<!--" not in Path("b.mlx").read_text()
+
+
+@POSIX
+def test_a_script_behind_a_link_is_replaced_and_keeps_its_mode():
+    script_file(TAUBIN, path="a.mlx")
+    Path("real.mlx").touch()
+    Path("real.mlx").chmod(0o640)
+    Path("link.mlx").symlink_to("real.mlx")
+    assert call("convert", "a.mlx", "link.mlx", "--force").exit_code == 0
+    assert Path("link.mlx").is_symlink()
+    assert stat.S_IMODE(Path("real.mlx").stat().st_mode) == 0o640
+    assert [step.filter for step in script.read("real.mlx")] == ["Taubin Smooth"]
+    assert listing() == ["a.mlx", "link.mlx", "real.mlx"]

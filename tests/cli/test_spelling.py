@@ -2,8 +2,9 @@
 
 import pytest
 
-from meshlab_willmore.cli.masks import is_part
-from meshlab_willmore.cli.spelling import spelled_out
+from meshlab_willmore.cli.errors import WrongUse
+from meshlab_willmore.cli.masks import by_output, is_part
+from meshlab_willmore.cli.spelling import GONE, of_today, spelled_out
 
 SEVERAL = {"-i": lambda word: not word.endswith(".mlx"), "-m": is_part}
 
@@ -28,3 +29,32 @@ SEVERAL = {"-i": lambda word: not word.endswith(".mlx"), "-m": is_part}
 )
 def test_each_value_gets_the_options_name(written, meant):
     assert spelled_out(written.split(), SEVERAL) == meant.split()
+
+
+def test_old_names_become_those_of_today():
+    words = ["s.mlx", "-o", "a", "-om", "vc", "-i", "--", "-om", "-p"]
+    assert of_today(words) == ["s.mlx", "-o", "a", "-m", "vc", "-i", "--", "-om", "-p"]
+
+
+@pytest.mark.parametrize("word", GONE)
+def test_what_is_gone_is_refused(word):
+    with pytest.raises(WrongUse, match=f"^{word} of meshlabserver is gone: "):
+        of_today(["s.mlx", word])
+
+
+@pytest.mark.parametrize(
+    ("written", "groups"),
+    [
+        ("", []),
+        ("vc", []),
+        ("o", [""]),
+        ("vc o vn", ["vc vn"]),
+        ("o vc o", ["vc", ""]),
+        ("vc o vn o vq fc", ["vc vn", "vc vq fc"]),
+    ],
+)
+def test_parts_belong_to_the_output_before(written, groups):
+    words = written.split()
+    order = ["patterns" if word == "o" else "parts" for word in words]
+    parts = [word for word in words if word != "o"]
+    assert by_output(order, parts) == [tuple(group.split()) for group in groups]

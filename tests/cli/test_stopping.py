@@ -58,6 +58,7 @@ def run():
     ("number", "code", "said"),
     [
         (signal.SIGTERM, 143, "Error: terminated by SIGTERM\n"),
+        (signal.SIGHUP, 129, "Error: terminated by SIGHUP\n"),
         (signal.SIGINT, 1, "\nAborted!\n"),
     ],
 )
@@ -89,3 +90,98 @@ def test_sigterm_goes_the_way_of_ctrl_c(run, monkeypatch):
     assert (result.exit_code, result.stderr) == (143, "Error: terminated by SIGTERM\n")
     assert signal.getsignal(signal.SIGTERM) is before
     assert listing() == ["cube.ply", "script.mlx"]
+
+
+# As a native filter does, this lets no handler of Python run.
+NATIVE = """
+import ctypes, sys
+from pathlib import Path
+from meshlab_willmore.cli import main
+from meshlab_willmore.meshset import native
+apply = native.apply
+def take_long(ms, name, /, **given):
+    if name != "set_selection_all":
+        return apply(ms, name, **given)
+    Path("ready").touch()
+    for _ in range(20):
+        ctypes.PyDLL(None).sleep(1)
+    return {}
+native.apply = take_long
+main(sys.argv[1:], prog_name="meshlab-willmore")
+"""
+
+
+@pytest.fixture
+def started(tmp_path_factory):
+    """Start a process, and wait until it is ready; what it leaves behind goes with the test's."""
+    folder = str(tmp_path_factory.mktemp("temporary"))
+    return lambda code, arguments: ready(code, arguments, {**os.environ, "TMPDIR": folder})
+
+
+def ready(code, arguments, environment):
+    process = subprocess.Popen(
+        [sys.executable, "-c", code, *map(str, arguments)],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=environment,
+    )
+    end = time.monotonic() + PATIENCE
+    while not Path("ready").exists() and time.monotonic() < end:
+        time.sleep(STEP)
+    Path("ready").unlink()
+    return process
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+def test_a_native_step_ends_at_once(started, number):
+    script = script_file(("Select All", {}))
+    process = started(NATIVE, ["run", script, "-i", cube_file(), "-o", "out.ply"])
+    process.send_signal(number)
+    _, err = process.communicate(timeout=PATIENCE)
+    assert (process.returncode, err) == (-number, "")
+    assert listing() == ["cube.ply", "script.mlx"]
+
+
+def test_a_second_signal_ends_at_once(started, run):
+    deaf = SLOW.replace(
+        "    time.sleep(60)",
+        "    from meshlab_willmore.meshset import interrupts\n"
+        "    with interrupts.deferred():\n"
+        "        time.sleep(1)\n"
+        "        Path('again').touch()\n"
+        "        time.sleep(60)",
+    )
+    process = started(deaf, run)
+    process.send_signal(signal.SIGTERM)
+    end = time.monotonic() + PATIENCE
+    while not Path("again").exists() and time.monotonic() < end:
+        time.sleep(STEP)
+    process.send_signal(signal.SIGTERM)
+    process.communicate(timeout=PATIENCE)
+    assert process.returncode == -signal.SIGTERM
+
+
+def test_what_is_ignored_stays_ignored(run, monkeypatch):
+    # nohup does that.
+    def hang_up(*_arguments):
+        os.kill(os.getpid(), signal.SIGHUP)
+
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        monkeypatch.setattr(saving, "_check_whole", hang_up)
+        assert call(*run).exit_code == 0
+        assert signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
+    finally:
+        signal.signal(signal.SIGHUP, before)
+
+
+def test_handlers_are_there_again_after_a_native_step(run, monkeypatch):
+    # Which one there is while the mesh is saved.
+    handlers = []
+    monkeypatch.setattr(
+        saving, "_check_whole", lambda *_: handlers.append(signal.getsignal(signal.SIGTERM))
+    )
+    assert call(*run).exit_code == 0
+    assert handlers
+    assert all(callable(handler) for handler in handlers)

@@ -1,0 +1,83 @@
+"""What a run takes from files and puts into files, with a line in the log for each."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from . import inputs
+from .columns import counted
+
+if TYPE_CHECKING:
+    import pymeshlab
+
+    from .jobs import Job
+    from .runlog import Log
+
+
+class Wishes(NamedTuple):
+    """How outputs are to be saved.
+
+    Attributes
+    ----------
+    parts : tuple of tuple of str
+        For each output, the short names of `masks`.
+    force : bool
+        Replace files that are there.
+    """
+
+    parts: tuple[tuple[str, ...], ...]
+    force: bool
+
+
+def loaded(job: Job, log: Log) -> pymeshlab.MeshSet:
+    """The inputs as layers of one set; the first is current, as in `meshlabserver`."""
+
+    def note(ms: pymeshlab.MeshSet, path: Path) -> None:
+        log.say(f"input {path} ({_size(ms)})")
+
+    ms = inputs.loaded(*job.inputs, after=note)
+    if len(job.inputs) > 1:
+        ms.set_current_mesh(0)
+    return ms
+
+
+def save(ms: pymeshlab.MeshSet, job: Job, wishes: Wishes, log: Log) -> str:
+    """Save the current mesh, or the first layers; returns which files there are now.
+
+    Raises
+    ------
+    OSError
+        In one line, if there is not a mesh for each output, or one can't be written.
+    """
+    from . import saving
+
+    if not job.outputs:
+        return "not saved (no -o)"
+    if ms.mesh_number() == 0:
+        raise OSError(f"cannot write {job.outputs[0]}: the script leaves no mesh")
+    layers = _layers(ms)
+    if len(job.outputs) > len(layers):
+        left = counted(len(layers), "layer")
+        raise OSError(f"{len(job.outputs)} outputs, but the script leaves {left}")
+    origin = job.inputs[0].parent if job.inputs else None
+    texts = []
+    for place, (path, parts) in enumerate(zip(job.outputs, wishes.parts, strict=True)):
+        if len(job.outputs) > 1:
+            ms.set_current_mesh(layers[place])
+        files = saving.save(ms, path, saving.Wish(parts, wishes.force, origin))
+        log.say(f"output {' '.join(map(str, files))} ({_size(ms)})")
+        texts.append(f"{path} ({_size(ms)})")
+    return ", ".join(texts)
+
+
+def _layers(ms: pymeshlab.MeshSet) -> list[int]:
+    """The ids of the layers, in the order in which the script would count them."""
+    from ..meshset import layers, numbering
+
+    return sorted(layers.visible_ids(ms), key=lambda i: numbering.logical_id(ms, i))
+
+
+def _size(ms: pymeshlab.MeshSet) -> str:
+    mesh = ms.current_mesh()
+    return f"{mesh.vertex_number()} vertices, {mesh.face_number()} faces"

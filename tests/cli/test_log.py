@@ -1,0 +1,98 @@
+"""`-l`: where a log may be written, and what is said when it can't be."""
+
+import os
+import sys
+from pathlib import Path
+
+import pytest
+
+from meshlab_willmore.cli import playing
+
+from .conftest import TAUBIN, call, cube_file, listing, script_file
+
+POSIX = pytest.mark.skipif(sys.platform == "win32", reason="links and devices of POSIX")
+
+
+@pytest.fixture
+def run():
+    return ["run", script_file(TAUBIN), "-i", cube_file(), "-o", "out.ply"]
+
+
+@pytest.fixture
+def no_step(monkeypatch):
+    def fail(*_arguments):
+        raise AssertionError("a step ran")
+
+    monkeypatch.setattr(playing, "play", fail)
+
+
+def contents():
+    return {name: Path(name).read_bytes() for name in listing() if Path(name).is_file()}
+
+
+@pytest.mark.parametrize("dry", [[], ["--dry-run"]])
+@pytest.mark.parametrize(
+    ("log", "line"),
+    [
+        ("cube.ply", "-l cube.ply: the log would be written into cube.ply; give it a new name"),
+        ("./script.mlx", "-l ./script.mlx: the log would be written into script.mlx; give it a"),
+        ("folder/../out.ply", "-l folder/../out.ply: the log would be written into out.ply; give"),
+        ("mine.txt", "-l mine.txt: this file is no log of a run; give the log a new name"),
+        ("other.ply", "-l other.ply: this file is no log of a run; give the log a new name"),
+        ("folder", "-l folder is a folder; name a file in it, such as 'folder/log.txt'"),
+        ("no/log.txt", "cannot write the log no/log.txt: there is no folder no"),
+        ("mine.txt/log.txt", "cannot write the log mine.txt/log.txt: there is no folder mine.txt"),
+    ],
+)
+def test_a_log_is_written_over_nothing(run, no_step, log, line, dry):
+    cube_file("other.ply")
+    Path("mine.txt").write_text("2020-02-20: dear diary\n")
+    Path("folder").mkdir()
+    before = contents()
+    result = call(*run, "-l", log, *dry)
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert result.stderr.startswith(f"Error: {line}")
+    assert result.stderr.count("\n") == 1
+    assert contents() == before
+
+
+@POSIX
+@pytest.mark.parametrize("link", [os.symlink, os.link])
+def test_a_link_to_an_input_is_that_input(run, no_step, link):
+    link("cube.ply", "log.txt")
+    before = contents()
+    result = call(*run, "-l", "log.txt")
+    assert result.exit_code == 2
+    assert "the log would be written into cube.ply" in result.stderr
+    assert contents() == before
+
+
+def test_a_log_goes_on_and_may_begin_empty(run):
+    Path("log.txt").touch()
+    assert call(*run, "-l", "log.txt").exit_code == 0
+    assert call(*run, "-l", "log.txt", "--force").exit_code == 0
+    lines = Path("log.txt").read_text().splitlines()
+    assert sum(line.endswith(" run script.mlx") for line in lines) == 2
+    assert sum(line.startswith("done, ") for line in lines) == 2
+
+
+@pytest.mark.parametrize("dry", [[], ["--dry-run"]])
+def test_a_folder_that_takes_no_file_is_found_before(run, no_step, monkeypatch, dry):
+    def refuse(**_given):
+        raise PermissionError(13, "Permission denied")
+
+    Path("closed").mkdir()
+    monkeypatch.setattr("meshlab_willmore.cli.outputs.writable_folder", lambda _: None)
+    monkeypatch.setattr("meshlab_willmore.files.TemporaryFile", refuse)
+    result = call(*run, "-l", "closed/log.txt", *dry)
+    assert result.exit_code == 1
+    assert result.stderr == "Error: cannot write into closed: Permission denied\n"
+
+
+def test_a_full_disk_is_told_of_the_log(run):
+    if not Path("/dev/full").exists():
+        pytest.skip("needs /dev/full")
+    result = call(*run, "-l", "/dev/full")
+    assert result.exit_code == 1
+    assert result.stderr == "Error: cannot write the log /dev/full: No space left on device\n"
+    assert not Path("out.ply").exists()

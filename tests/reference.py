@@ -110,18 +110,27 @@ def vertex_energy(vertices, faces):
     return np.where(interior_vertices(faces, len(vertices)), energy - 2 * np.pi, 0).astype(float)
 
 
-def angle_defects(vertices, faces):
-    """2 pi minus the angles of the faces, by the cosine rule, at the interior vertices."""
-    corners = np.asarray(vertices, np.longdouble)[faces]
-    defects = np.full(len(vertices), 2 * np.pi, np.longdouble)
+def corner_angles(vertices, faces):
+    """The angles (m, 3) of the faces, from the sum and the difference of the unit side vectors."""
+    corners = np.asarray(vertices, np.longdouble)[np.asarray(faces)]
+    angles = np.empty(corners.shape[:2], np.longdouble)
     for c in range(3):
-        opposite, left, right = (
-            np.sqrt(np.sum((corners[:, a % 3] - corners[:, b % 3]) ** 2, axis=1))
-            for a, b in ((c + 1, c + 2), (c, c + 1), (c, c + 2))
-        )
-        cosine = (left**2 + right**2 - opposite**2) / (2 * left * right)
-        np.subtract.at(defects, np.asarray(faces)[:, c], np.arccos(np.clip(cosine, -1, 1)))
+        left, right = (corners[:, (c + side) % 3] - corners[:, c] for side in (1, 2))
+        angles[:, c] = _angle_between(left, right)
+    return angles
+
+
+def angle_defects(vertices, faces):
+    """2 pi minus the angles of the faces at the interior vertices."""
+    # 2 pi in long double, which np.pi is not.
+    defects = np.full(len(vertices), 2 * np.arctan2(np.longdouble(0), np.longdouble(-1)))
+    np.subtract.at(defects, np.asarray(faces), corner_angles(vertices, faces))
     return defects[interior_vertices(faces, len(vertices))].astype(float)
+
+
+def absolute_gaussian_curvature(vertices, faces):
+    """Sum of the absolute angle defects of the interior vertices."""
+    return float(np.abs(angle_defects(vertices, faces)).sum())
 
 
 def mean_curvature(vertices, faces):
@@ -135,11 +144,60 @@ def mean_curvature(vertices, faces):
 
     def height(apex):
         offset = apex - i
-        offset -= along * np.sum(offset * along, axis=1, keepdims=True) / squared
-        return offset / np.sqrt(np.sum(offset**2, axis=1, keepdims=True))
+        return offset - along * np.sum(offset * along, axis=1, keepdims=True) / squared
 
-    cosine = np.clip(-np.sum(height(k) * height(l), axis=1), -1, 1)
-    return float(np.sum(np.arccos(cosine) * np.sqrt(squared[:, 0])))
+    return float(np.sum(_angle_between(height(k), -height(l)) * np.sqrt(squared[:, 0])))
+
+
+def area(vertices, faces):
+    """Sum of the areas of the faces, by Heron's formula as W. Kahan arranges it."""
+    a, b, c = np.sort(_side_lengths(vertices, faces), axis=1)[:, ::-1].T
+    product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c))
+    return float(np.sum(np.sqrt(product)) / 4)
+
+
+def cotangents(vertices, faces):
+    """Sum of the cotangents of all angles of all faces."""
+    return float(np.sum(1 / np.tan(corner_angles(vertices, faces))))
+
+
+def with_all_middles(vertices, faces):
+    """The mesh with a vertex in the middle of every edge, and each face split into four."""
+    middles, points, finer = {}, list(np.asarray(vertices, np.longdouble)), []
+
+    def middle(a, b):
+        key = frozenset((a, b))
+        if key not in middles:
+            middles[key] = len(points)
+            points.append((points[a] + points[b]) / 2)
+        return middles[key]
+
+    for a, b, c in map(tuple, np.asarray(faces).tolist()):
+        ab, bc, ca = middle(a, b), middle(b, c), middle(c, a)
+        finer += [(a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)]
+    return np.array(points), finer
+
+
+def uniform_objective(vertices, faces):
+    """The objective of the mesh with a virtual vertex on every edge, by brute-force subdivision."""
+    return objective(*with_all_middles(vertices, faces))
+
+
+def reduction(objective, vertices, faces, i, j):
+    """What a function of vertices and faces loses by the flip of i-j."""
+    return objective(vertices, faces) - objective(vertices, flipped(faces, i, j))
+
+
+def _angle_between(u, v):
+    """Angles between the vectors of two arrays (n, 3), as good near 0 and pi as elsewhere."""
+    u, v = (x / np.sqrt(np.sum(x**2, axis=1, keepdims=True)) for x in (u, v))
+    half = np.arctan2(*(np.sqrt(np.sum(x**2, axis=1)) for x in (u - v, u + v)))
+    return 2 * half
+
+
+def _side_lengths(vertices, faces):
+    corners = np.asarray(vertices, np.longdouble)[np.asarray(faces)]
+    return np.sqrt(np.sum((corners - np.roll(corners, 1, axis=1)) ** 2, axis=2))
 
 
 def _apexes(faces, a, b):

@@ -1,0 +1,73 @@
+"""The harmonic index of a mesh: the sum of the cotangents of all its angles.
+
+For a triangle with the sides a, b, c it is (a^2 + b^2 + c^2) / (4 area): no unit, least if
+equilateral. In the plane every flip that makes an edge locally Delaunay (the angles opposite to it
+sum to more than pi) lowers the sum, so its descent ends at the Delaunay triangulation (O. R. Musin,
+"Properties of the Delaunay triangulation", Symposium on Computational Geometry, 1997,
+doi:10.1145/262839.263061). It is the Dirichlet energy of the coordinates for conformal weights, up
+to a factor, which Delaunay triangulations of surfaces minimise for every function (A. I. Bobenko
+and B. A. Springborn, "A discrete Laplace-Beltrami operator for simplicial surfaces", 2007,
+doi:10.1007/s00454-007-9006-1).
+
+On a bent pair of faces the new edge k-l is straight in space, and so shorter than the one that
+those sources draw on the surface. The sum stays a function of the mesh, and its descent ends. But
+areas have no sign here: where the quad is not convex, the flip that folds the surface may lower the
+sum too, and only the fold guard forbids it.
+"""
+
+import math
+
+from ..mesh.halfedge import diamond
+from ..mesh.jit import jit
+from ..mesh.points import dot, subtract
+from .triangles import corners, has_coincident_corners, twice_area
+
+# A face as flat as the rounding of its area counts as one of this sum, also if it has no area at
+# all: then an infinite sum would forbid the flip that removes it.
+FLATTEST = 2.0**52
+
+
+@jit
+def _cotangents(a, b, c):
+    """Return the sum of the cotangents of the angles of a triangle."""
+    ab, bc, ca = subtract(b, a), subtract(c, b), subtract(a, c)
+    squares = dot(ab, ab) + dot(bc, bc) + dot(ca, ca)
+    four_areas = 2.0 * twice_area(ab, bc, ca)
+    if four_areas * FLATTEST <= squares:
+        return FLATTEST
+    return squares / four_areas
+
+
+@jit
+def cost_reduction(mesh, h):
+    """Return by how much the sum of the cotangents drops when `h` is flipped.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    h : int
+        Half-edge with a twin.
+
+    Returns
+    -------
+    float
+        A pure number; positive where the flip helps, minus infinity where corners of the diamond
+        coincide. It depends on the two faces at `h` only.
+    """
+    quad = diamond(mesh, h)
+    if has_coincident_corners(quad):
+        return -math.inf
+    i, j, k, l = quad
+    before = _cotangents(i, j, k) + _cotangents(j, i, l)
+    gain = before - (_cotangents(k, i, l) + _cotangents(l, j, k))
+    return gain if math.isfinite(gain) else -math.inf
+
+
+@jit
+def total(mesh):
+    """Return the sum of the cotangents of all angles; a face adds `FLATTEST` at most."""
+    cotangents = 0.0
+    for f in range(len(mesh.origin) // 3):
+        a, b, c = corners(mesh, f)
+        cotangents += _cotangents(a, b, c)
+    return cotangents

@@ -11,6 +11,7 @@ from .measure import willmore_energy_of
 from .mesh.build import build, faces_of
 from .mesh.validate import (
     check_choice,
+    check_count,
     check_degrees,
     check_edges,
     check_flag,
@@ -19,19 +20,35 @@ from .mesh.validate import (
     check_mesh,
     to_unit_scale,
 )
-from .search import entries, greedy
+from .search import entries, greedy, variable_depth
 
-# Each search, bound to the kernel that runs it on each energy.
+# Each search, bound to the kernels that run it on each energy.
 SEARCHES = {
     "greedy": {
         "virtual willmore": functools.partial(greedy.run, entries.greedy_virtual),
         "willmore": functools.partial(greedy.run, entries.greedy_willmore),
     },
+    "variable depth": {
+        "virtual willmore": functools.partial(
+            variable_depth.run, entries.depth_virtual, entries.greedy_virtual
+        ),
+        "willmore": functools.partial(
+            variable_depth.run, entries.depth_willmore, entries.greedy_willmore
+        ),
+    },
 }
+STOPPED = "maxflips reached"
 REASONS = {
-    greedy.CONVERGED: "no allowed flip lowers the energy any more",
-    greedy.STOPPED: "maxflips reached",
+    "greedy": {
+        greedy.CONVERGED: "no allowed flip lowers the energy any more",
+        greedy.STOPPED: STOPPED,
+    },
+    "variable depth": {
+        greedy.CONVERGED: "no allowed chain of flips lowers the energy any more",
+        greedy.STOPPED: STOPPED,
+    },
 }
+MOST_DEPTH = 100
 
 
 class FlipResult(NamedTuple):
@@ -42,10 +59,12 @@ class FlipResult(NamedTuple):
     faces : (m, 3) int32
         The new faces, in the slots of the old ones.
     flips : int
-        Number of flips made.
+        Number of flips made, those that the search took back left out.
     gain : float
         Sum of the cost reductions of the flips, in the chosen energy (radians). For the energy
         "willmore" on a closed mesh it is `willmore_before` - `willmore_after`.
+        With "virtual willmore" and "variable depth" it may be negative, since the chains are judged
+        by the Willmore energy.
     willmore_before, willmore_after : float
         Willmore energy of the mesh, as `meshlab_willmore.measure.willmore_energy` gives it: summed
         over interior vertices. On a mesh with a boundary it leaves out what the edges carry at
@@ -56,7 +75,8 @@ class FlipResult(NamedTuple):
         True if no allowed flip lowers the energy any more. Allowed is what neither connectivity,
         locks and the fold guard nor the rule of the option `monotone` forbid. With True, that rule
         forbids flips that raise the Willmore energy; with False, flips to an edge that was flipped
-        away before. So there may be flips left that would lower the energy.
+        away before. So there may be flips left that would lower the energy. The search "variable
+        depth" says so of chains of flips, see there for what they are judged by.
     reason : str
         Why it stopped.
     corners : (m, 3) int32
@@ -89,6 +109,8 @@ def optimize_flips(
     *,
     energy="virtual willmore",
     search="greedy",
+    depth=5,
+    breadth=3,
     monotone=True,
     foldangle=90.0,
     featuredeg=180.0,
@@ -111,14 +133,24 @@ def optimize_flips(
         Vertex indices of each face.
     energy : {"virtual willmore", "willmore"}
         What to minimise: the paper's virtual Willmore energy, or the Willmore energy itself.
-    search : {"greedy"}
-        How to minimise it: always the flip of the largest cost reduction.
+    search : {"greedy", "variable depth"}
+        How to minimise it. "greedy": always the flip of the largest cost reduction. "variable
+        depth": the same first, then chains of flips that may go through a loss, until none helps;
+        slower, and far less dependent on the triangulation at the start. With the virtual Willmore
+        energy, which is no function of the mesh, it decides where a chain goes, and the Willmore
+        energy whether it helps.
+    depth : int
+        Most flips of a chain, 1 to 100. Only for "variable depth".
+    breadth : int
+        How many ways each chain of "variable depth" tries at its second flip, 1 to 12; half as
+        many at the third, and so on. 1 is the quickest; more, with more depth, gets out of nearly
+        every local minimum.
     monotone : bool
         Make no flip that raises the Willmore energy, in the form that counts every interior edge:
         twice the sum of their intersection angles. (With a boundary, that is not the number
         `willmore_after` of the result, which may rise; see there.) The paper has no such rule;
         without it, an edge that was flipped away never comes back, as the search might not end
-        otherwise.
+        otherwise. With "variable depth" the rule holds for each chain as a whole.
     foldangle : float
         Degrees in [0, 180]. Refuse flips to an edge with a larger dihedral angle (0 is flat) than
         this and than the old edge, and flips to a sliver (shape below 0.05 and below the worse old
@@ -132,7 +164,7 @@ def optimize_flips(
     locked_edges : (e, 2) array_like of int, optional
         Vertex pairs of edges to keep.
     maxflips : int, optional
-        Stop after so many flips.
+        Stop after so many flips, or before a chain that would exceed them.
 
     Returns
     -------
@@ -160,6 +192,11 @@ def optimize_flips(
     check_choice("energy", energy, SEARCHES[search])
     vertices, faces = check_mesh(vertices, faces)
     rules = _rules(monotone, foldangle, maxflips)
+    reach = variable_depth.Reach(
+        check_count("depth", depth, MOST_DEPTH),
+        check_count("breadth", breadth, variable_depth.RING),
+    )
+    options = {"reach": reach} if search == "variable depth" else {}
     locks = _Locks(
         check_degrees("featuredeg", featuredeg),
         None if selected_faces is None else check_mask(selected_faces, len(faces)),
@@ -168,7 +205,7 @@ def optimize_flips(
     mesh = build(to_unit_scale(vertices, faces)[0], faces)
     _apply_locks(mesh, locks)
     before = willmore_energy_of(mesh)
-    progress = SEARCHES[search][energy](mesh, rules)
+    progress = SEARCHES[search][energy](mesh, rules, **options)
     return FlipResult(
         faces=faces_of(mesh),
         flips=progress.flips,
@@ -176,7 +213,7 @@ def optimize_flips(
         willmore_before=before,
         willmore_after=willmore_energy_of(mesh),
         converged=progress.state == greedy.CONVERGED,
-        reason=REASONS[progress.state],
+        reason=REASONS[search][progress.state],
         corners=mesh.corner.reshape(-1, 3),
     )
 

@@ -139,11 +139,24 @@ def check_flag(name, value):
     return bool(value)
 
 
+def _is_integer(value):
+    return isinstance(value, numbers.Integral) and not isinstance(value, (bool, np.bool_))
+
+
+def check_count(name, value, most):
+    """Return an integer in 1 .. `most` as int."""
+    if not _is_integer(value):
+        raise TypeError(f"{name} must be an integer, not {type(value).__name__}")
+    if not 1 <= value <= most:
+        raise ValueError(f"{name} must lie in 1 .. {most}, not {value}")
+    return int(value)
+
+
 def check_limit(name, value):
     """Return a number of flips as int, or None for no limit."""
     if value is None:
         return None
-    if isinstance(value, (bool, np.bool_)) or not isinstance(value, numbers.Integral):
+    if not _is_integer(value):
         raise TypeError(f"{name} must be an integer or None, not {type(value).__name__}")
     if value < 0:
         raise ValueError(f"{name} must not be negative, not {value}")

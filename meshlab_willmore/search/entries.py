@@ -5,16 +5,28 @@ The search itself takes the energy as a parameter, and Numba never finds such a 
 
 from ..energy import virtual, willmore
 from ..mesh.jit import jit
-from .greedy import advance
+from . import greedy, variable_depth
 
 
 @jit
 def greedy_virtual(task, progress):
     """Go on with `meshlab_willmore.search.greedy.advance` on the virtual Willmore energy."""
-    return advance(task, progress, virtual.cost_reduction)
+    return greedy.advance(task, progress, virtual.cost_reduction)
 
 
 @jit
 def greedy_willmore(task, progress):
     """Go on with `meshlab_willmore.search.greedy.advance` on the Willmore energy."""
-    return advance(task, progress, willmore.cost_reduction)
+    return greedy.advance(task, progress, willmore.cost_reduction)
+
+
+@jit
+def depth_virtual(task, progress):
+    """Go on with `variable_depth.advance`, ranked by the virtual, judged by the true energy."""
+    return variable_depth.advance(task, progress, virtual.cost_reduction, willmore.cost_reduction)
+
+
+@jit
+def depth_willmore(task, progress):
+    """Go on with `meshlab_willmore.search.variable_depth.advance` on the Willmore energy."""
+    return variable_depth.advance(task, progress, willmore.cost_reduction, None)

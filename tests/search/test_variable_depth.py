@@ -1,0 +1,441 @@
+"""The variable-depth search against one that copies the mesh for each flip it tries."""
+
+import math
+
+import numpy as np
+import pytest
+
+from meshlab_willmore import guards
+from meshlab_willmore.energy import virtual, willmore
+from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
+from meshlab_willmore.mesh.halfedge import NONE, apex, can_flip, flip, following, previous
+from meshlab_willmore.mesh.jit import generic, jit
+from meshlab_willmore.mesh.points import norm, point, subtract
+from meshlab_willmore.search import entries, greedy, variable_depth
+from meshlab_willmore.search.variable_depth import Reach
+from tests import meshes, reference
+
+GUARDED, FREE = guards.fold_limits(90.0), guards.fold_limits(180.0)
+# More rounds than any of these runs needs.
+MANY = 100
+ENERGIES = {
+    "virtual willmore": (
+        entries.depth_virtual,
+        entries.greedy_virtual,
+        virtual.cost_reduction,
+        willmore.cost_reduction,
+    ),
+    "willmore": (
+        entries.depth_willmore,
+        entries.greedy_willmore,
+        willmore.cost_reduction,
+        willmore.cost_reduction,
+    ),
+}
+REACHES = [Reach(1, 1), Reach(2, 1), Reach(3, 2), Reach(4, 3)]
+
+
+def some_locked():
+    vertices, faces = meshes.bumpy_sphere(40, 3, bump=0.6)
+    mesh = build(vertices, faces)
+    guards.lock_unselected(mesh, vertices[faces].mean(axis=1)[:, 0] > -0.3)
+    return mesh
+
+
+def shuffled(count, seed, bump=0.6):
+    """A bumpy sphere after random flips: far from optimal, with 3-cycles that are no faces."""
+    mesh = build(*meshes.bumpy_sphere(count, seed, bump))
+    rng = np.random.default_rng(seed)
+    for _ in range(4 * count):
+        flip(mesh, rng.choice([h for h in range(len(mesh.origin)) if can_flip(mesh, h)]))
+    mesh.corner[:] = np.arange(len(mesh.corner))
+    return mesh
+
+
+MESHES = {
+    "closed": lambda: build(*meshes.bumpy_sphere(40, 1, bump=0.6)),
+    "boundary": lambda: build(*meshes.patch(40, 1, height=0.6)),
+    "flat boundary": lambda: build(*meshes.patch(30, height=0.0)),
+    "cube": lambda: build(*meshes.cube(0.1)),
+    "fin": lambda: build(*meshes.fin()[:2]),
+    "locked": some_locked,
+    "moebius band": lambda: build(*meshes.moebius_band()),
+    "shuffled": lambda: shuffled(20, 1),
+}
+
+
+def copy_of(mesh):
+    return mesh._replace(
+        origin=mesh.origin.copy(),
+        twin=mesh.twin.copy(),
+        locked=mesh.locked.copy(),
+        corner=mesh.corner.copy(),
+    )
+
+
+def ends(mesh, h):
+    return frozenset((int(mesh.origin[h]), int(mesh.origin[following(h)])))
+
+
+def around(mesh, h):
+    """The ring in the order of the module's picture."""
+    t = int(mesh.twin[h])
+    ring = []
+    for side in (following(h), previous(h), following(t), previous(t)):
+        ring.append(int(side))
+        outside = int(mesh.twin[side])
+        if outside != NONE:
+            ring += [following(outside), previous(outside)]
+    return ring
+
+
+class Scan:
+    """Chains by recursion, on copies; every edge is tried again until none helps."""
+
+    def __init__(self, rules, reach, rank, judge):
+        self.rules, self.reach, self.rank, self.judge = rules, reach, rank, judge
+
+    def allowed(self, mesh, h):
+        if mesh.twin[h] == NONE or not can_flip(mesh, h):
+            return False
+        return np.isfinite(self.rank(mesh, h)) and not guards.folds(mesh, h, self.rules.fold)
+
+    def explore(self, mesh, candidates, chain, made, width):
+        """Follow the first `width` allowed candidates; True once a chain through one helps."""
+        ranked = sorted(
+            (-np.rint(self.rank(mesh, h) / self.rules.rank_step), place, h)
+            for place, h in enumerate(candidates)
+            if ends(mesh, h) not in made and self.allowed(mesh, h)
+        )
+        last = len(chain) + 1 == self.reach.depth
+        # The last step is free, so that all edges may be tried: in the order of the ring.
+        if last and chain:
+            ranked.sort(key=lambda entry: entry[1])
+            width = len(ranked)
+        for _, _, h in ranked[:width]:
+            longer = [*chain, (h, self.judge(mesh, h), willmore.cost_reduction(mesh, h))]
+            drop = math.fsum(entry[1] for entry in longer)
+            rise = -math.fsum(entry[2] for entry in longer)
+            if drop > self.best[0] + self.rules.tolerance and (
+                not self.rules.monotone or rise <= self.rules.tie
+            ):
+                self.best = drop, [entry[0] for entry in longer]
+            if last:
+                continue
+            flipped = copy_of(mesh)
+            flip(flipped, h)
+            following_width = -(-width // 2) if chain else self.reach.breadth
+            joined = {*made, ends(flipped, h)}
+            self.explore(flipped, around(flipped, h), longer, joined, following_width)
+            if self.best[1]:
+                break
+
+    def chain_from(self, mesh, start):
+        self.best = 0.0, []
+        self.explore(mesh, [start], [], set(), 1)
+        return self.best
+
+    def run(self, mesh, rounds):
+        """Make all flips; return their number for each chain."""
+        made = []
+        for _ in range(rounds):
+            waiting = [h for h in range(len(mesh.origin)) if h < mesh.twin[h]]
+            before = len(made)
+            while waiting:
+                h = waiting.pop(0)
+                if mesh.twin[h] < h:
+                    continue
+                drop, flips = self.chain_from(mesh, h)
+                if not flips:
+                    continue
+                made.append(len(flips))
+                energy = willmore.total(mesh)
+                for h in flips:
+                    flip(mesh, h)
+                    for x in (h, *around(mesh, h)):
+                        low = min(x, int(mesh.twin[x]))
+                        if low != NONE and low not in waiting:
+                            waiting.append(low)
+                validate_connectivity(mesh)
+                assert willmore.total(mesh) == pytest.approx(energy - drop, abs=1e-9)
+            if len(made) == before:
+                break
+        return made
+
+
+def search(energy, mesh, rules, reach):
+    kernel, descent, _, _ = ENERGIES[energy]
+    return variable_depth.run(kernel, descent, mesh, rules, reach)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("name", MESHES)
+@pytest.mark.parametrize("fold", [GUARDED, FREE])
+@pytest.mark.parametrize("reach", REACHES)
+@pytest.mark.parametrize("energy", ENERGIES)
+def test_the_search_finds_what_a_scan_finds(energy, reach, fold, name):
+    """Also that to try again the edges near a change is as good as to try all again."""
+    _, descent, rank, judge = ENERGIES[energy]
+    rules = greedy.Rules(fold)
+    scanned, searched = MESHES[name](), MESHES[name]()
+    flips = greedy.run(descent, scanned, rules).flips
+    if reach.breadth > 1:
+        flips += sum(Scan(rules, reach._replace(breadth=1), rank, judge).run(scanned, rounds=1))
+    flips += sum(Scan(rules, reach, rank, judge).run(scanned, rounds=MANY))
+    progress = search(energy, searched, rules, reach)
+    validate_connectivity(searched)
+    np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))
+    assert progress.flips == flips
+    assert progress.state == greedy.CONVERGED
+
+
+def new_task(mesh, rules, reach):
+    """A task with every edge in the queue."""
+    pending = variable_depth._nothing_pending(mesh)
+    variable_depth._queue_all(mesh, pending)
+    touched = np.zeros(len(mesh.vertices), bool)
+    return variable_depth.Task(mesh, pending, variable_depth._no_chain(reach), touched, rules)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("name", MESHES)
+@pytest.mark.parametrize("reach", [Reach(3, 1), Reach(5, 3)])
+def test_what_a_chain_tries_leaves_no_trace(reach, name):
+    """Undone flips give back all arrays bit for bit, also the corners, which a flip merges."""
+    mesh = MESHES[name]()
+    before = copy_of(mesh)
+    task = new_task(mesh, greedy.Rules(FREE), reach)
+    worked = 0
+    for h in np.flatnonzero(mesh.twin != NONE):
+        best, work = variable_depth.find_chain(task, h, willmore.cost_reduction, None)
+        worked += work
+        for changed, kept in zip(mesh, before, strict=True):
+            np.testing.assert_array_equal(changed, kept)
+        # The prefix is worth what it says.
+        after = copy_of(mesh)
+        for s in range(best[0]):
+            assert can_flip(after, task.chain.best[s])
+            flip(after, task.chain.best[s])
+        drop = willmore.total(mesh) - willmore.total(after)
+        assert best[2] == pytest.approx(drop, abs=1e-9)
+        assert best[1] == best[2]
+        assert best[0] == 0 or drop > 0.5e-7
+    assert worked > 3 * len(mesh.origin)
+
+
+@pytest.mark.parametrize("name", ["closed", "boundary", "shuffled"])
+def test_the_ring_is_where_cost_reductions_change(name):
+    mesh = MESHES[name]()
+    ring = np.empty(variable_depth.RING, np.int32)
+    for h in np.flatnonzero(mesh.twin > np.arange(len(mesh.twin)))[::7]:
+        if not can_flip(mesh, h):
+            continue
+        flipped = copy_of(mesh)
+        flip(flipped, h)
+        there = {ends(flipped, x) for x in ring[: variable_depth.ring_around(flipped, h, ring)]}
+        gains = [
+            {ends(m, x): virtual.cost_reduction(m, x) for x in np.flatnonzero(m.twin != NONE)}
+            for m in (mesh, flipped)
+        ]
+        changed = {
+            edge
+            for edge in gains[0].keys() & gains[1].keys()
+            if gains[0][edge] != pytest.approx(gains[1][edge], rel=1e-9, abs=1e-9)
+        }
+        assert changed <= there
+        assert ends(flipped, h) not in there
+
+
+@pytest.mark.parametrize(("count", "seed"), [(12, 23), (12, 32)])
+def test_two_flips_help_where_no_single_one_does(count, seed):
+    vertices, faces = meshes.bumpy_sphere(count, seed)
+    rules = greedy.Rules(GUARDED)
+    stuck = build(vertices, faces)
+    assert search("willmore", stuck, rules, Reach(1, 1)).flips == 0
+    mesh = build(vertices, faces)
+    progress = search("willmore", mesh, rules, Reach(2, 1))
+    assert progress.flips == 2
+    assert progress.state == greedy.CONVERGED
+    drop = reference.objective(vertices, faces) - reference.objective(vertices, faces_of(mesh))
+    assert drop > 1e-3
+    assert progress.gain == pytest.approx(drop, rel=1e-9)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("name", MESHES)
+def test_chains_of_one_flip_are_plain_descent(name):
+    greedily, searched = MESHES[name](), MESHES[name]()
+    rules = greedy.Rules(GUARDED)
+    wanted = greedy.run(entries.greedy_willmore, greedily, rules)
+    found = search("willmore", searched, rules, Reach(1, 12))
+    np.testing.assert_array_equal(faces_of(searched), faces_of(greedily))
+    assert found[1:] == wanted[1:]
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("name", MESHES)
+@pytest.mark.parametrize("energy", ENERGIES)
+def test_deeper_is_never_worse_than_greedy_and_a_minimum(energy, name):
+    rules, reach = greedy.Rules(GUARDED), Reach(4, 3)
+    greedily, mesh = MESHES[name](), MESHES[name]()
+    kernel, descent, rank, judge = ENERGIES[energy]
+    greedy.run(descent, greedily, rules)
+    assert search(energy, mesh, rules, reach).state == greedy.CONVERGED
+    assert willmore.total(mesh) <= willmore.total(greedily) + 1e-12
+    task = new_task(mesh, rules, reach)
+    for h in np.flatnonzero(mesh.twin != NONE):
+        if h < mesh.twin[h]:
+            assert variable_depth.find_chain(task, h, rank, judge)[0][0] == 0
+    again = copy_of(mesh)
+    state = kernel(task, greedy.Progress(0, 0, 0.0, greedy.WORKING))
+    assert state == (0, 0, 0.0, greedy.CONVERGED)
+    np.testing.assert_array_equal(mesh.origin, again.origin)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("energy", ENERGIES)
+def test_maxflips_stops_before_a_chain_that_exceeds_it(energy):
+    reach = Reach(3, 2)
+    everything = search(energy, MESHES["closed"](), greedy.Rules(GUARDED), reach)
+    energies, flips = [], []
+    for limit in range(everything.flips + 2):
+        mesh = MESHES["closed"]()
+        progress = search(energy, mesh, greedy.Rules(GUARDED, True, limit), reach)
+        validate_connectivity(mesh)
+        assert limit - reach.depth < progress.flips <= limit or limit > everything.flips
+        done = limit >= everything.flips
+        assert progress.state == (greedy.CONVERGED if done else greedy.STOPPED)
+        energies.append(willmore.total(mesh))
+        flips.append(progress.flips)
+    assert (np.diff(energies) <= 1e-12).all()
+    assert (np.diff(flips) >= 0).all()
+    assert flips[-1] == flips[-2] == everything.flips > 10
+
+
+@jit
+def shortening(mesh, h):
+    """An energy that has nothing to do with angles: the length of all edges."""
+    t = mesh.twin[h]
+    i, j = point(mesh.vertices, mesh.origin[h]), point(mesh.vertices, mesh.origin[t])
+    k, l = point(mesh.vertices, apex(mesh, h)), point(mesh.vertices, apex(mesh, t))
+    return norm(subtract(j, i)) - norm(subtract(l, k))
+
+
+@generic
+def depth_length(task, progress):
+    return variable_depth.advance(task, progress, shortening, None)
+
+
+@generic
+def greedy_length(task, progress):
+    return greedy.advance(task, progress, shortening)
+
+
+def length(mesh):
+    edges = np.array(sorted(reference.edge_set(faces_of(mesh))))
+    return float(np.linalg.norm(np.diff(mesh.vertices[edges], axis=1), axis=2).sum())
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("monotone", [True, False])
+def test_any_energy_will_do_and_the_monotone_rule_watches_the_true_one(monotone):
+    """Chain by chain: the length falls, and the Willmore energy never rises under the rule."""
+    rules = greedy.Rules(GUARDED, monotone)
+    everything = variable_depth.run(
+        depth_length, greedy_length, MESHES["closed"](), rules, Reach(4, 3)
+    )
+    states = []
+    for limit in range(everything.flips + 1):
+        mesh = MESHES["closed"]()
+        limited = rules._replace(maxflips=limit)
+        progress = variable_depth.run(depth_length, greedy_length, mesh, limited, Reach(4, 3))
+        states.append((length(mesh), willmore.total(mesh)))
+        assert progress.gain == pytest.approx(states[0][0] - states[-1][0], abs=1e-9)
+    lengths, energies = np.array(states).T
+    assert (np.diff(lengths) <= 1e-12).all()
+    assert lengths[-1] < lengths[0]
+    assert (np.diff(energies) <= 1e-9).all() == monotone
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("energy", ENERGIES)
+def test_locked_edges_stay_and_the_rest_improves(energy):
+    mesh = some_locked()
+    locked = {ends(mesh, h) for h in np.flatnonzero(mesh.locked)}
+    assert search(energy, mesh, greedy.Rules(FREE), Reach(4, 3)).flips > 5
+    assert locked == {ends(mesh, h) for h in np.flatnonzero(mesh.locked)}
+
+
+def test_every_flip_of_a_chain_passes_the_fold_guard():
+    """The kept flips, made again one by one on the input."""
+    mesh, rules, reach = MESHES["closed"](), greedy.Rules(GUARDED), Reach(5, 3)
+    greedy.run(entries.greedy_willmore, mesh, rules)
+    task = new_task(mesh, rules, reach)
+    flips = 0
+    for h in np.flatnonzero(mesh.twin > np.arange(len(mesh.twin))):
+        best, _ = variable_depth.find_chain(task, h, willmore.cost_reduction, None)
+        for s in range(best[0]):
+            assert can_flip(mesh, task.chain.best[s])
+            assert not guards.folds(mesh, task.chain.best[s], GUARDED)
+            flip(mesh, task.chain.best[s])
+            flips += 1
+    assert flips > 10
+
+
+@pytest.mark.heavy
+def test_the_torus_ends_in_the_same_triangulation_whatever_the_start():
+    """Two random flips an edge, and the energy comes down to the digit of the reference figure."""
+    vertices, faces = meshes.torus(2000, 0.3, 8)
+    rules = greedy.Rules(GUARDED)
+    results = []
+    for seed in (None, 101, 102):
+        mesh = build(vertices, faces)
+        if seed is not None:
+            _scramble(mesh, len(mesh.origin), np.random.default_rng(seed))
+        assert search("willmore", mesh, rules, Reach()).state == greedy.CONVERGED
+        validate_connectivity(mesh)
+        results.append(reference.edge_set(faces_of(mesh)))
+        energy = willmore.total(mesh) - 2.0 * math.pi * len(vertices)
+        assert energy == pytest.approx(115.754, abs=5e-4)
+    assert results[0] == results[1] == results[2]
+
+
+def _scramble(mesh, count, rng):
+    while count > 0:
+        for h in rng.integers(0, len(mesh.origin), count):
+            if can_flip(mesh, h) and not guards.folds(mesh, h, GUARDED):
+                flip(mesh, h)
+                count -= 1
+
+
+@pytest.mark.heavy
+def test_the_kernel_comes_back_often_and_two_runs_are_equal():
+    def counting(task, progress):
+        calls.append(progress)
+        return entries.depth_willmore(task, progress)
+
+    results = []
+    for _ in range(2):
+        calls = []
+        mesh = build(*meshes.torus(800, None, 4))
+        greedy_rules = greedy.Rules(GUARDED)
+        variable_depth.run(counting, entries.greedy_willmore, mesh, greedy_rules, Reach())
+        results.append(mesh)
+        assert len(calls) > 5
+        assert [p.flips for p in calls] == sorted(p.flips for p in calls)
+    for one, other in zip(*results, strict=True):
+        np.testing.assert_array_equal(one, other)
+
+
+@pytest.mark.parametrize(
+    ("reach", "wanted"),
+    [
+        (Reach(1, 5), [1]),
+        (Reach(2, 5), [1, 5]),
+        (Reach(6, 5), [1, 5, 3, 2, 1, 1]),
+        (Reach(4, 1), [1, 1, 1, 1]),
+        (Reach(100, 12), [1, 12, 6, 3, 2] + [1] * 95),
+    ],
+)
+def test_chains_branch_half_as_much_at_each_step(reach, wanted):
+    assert variable_depth._widths(reach).tolist() == wanted

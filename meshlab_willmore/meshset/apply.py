@@ -11,7 +11,7 @@ import pymeshlab
 from pymeshlab import MeshSet
 
 from . import native
-from .filters import Filter
+from .filter import Filter
 from .parameters import read_all
 
 # PyMeshLab redirects the streams of the whole process: filters take turns.

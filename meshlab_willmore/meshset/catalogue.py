@@ -20,13 +20,14 @@ from typing import Any, NamedTuple
 import pymeshlab
 
 from . import probe
-from .filters import BY_NAME, FILTERS, Filter
+from .filter import Filter
+from .filters import BY_NAME, FILTERS
 from .probe import KnownParam
 
 _FILE = Path(__file__).with_name("native_filters.json")
 _RENAMED = Path(pymeshlab.__file__).with_name("keys.txt")
 _MANUAL = "https://pymeshlab.readthedocs.io/en/{version}/filter_list.html#{name}"
-_TYPES = {bool: "RichBool", int: "RichInt", float: "RichFloat", str: "RichEnum"}
+_TYPES = {bool: "RichBool", int: "RichInt", float: "RichFloat", str: "RichString"}
 # All filters of this name, and few others, work on an empty set.
 _MAKES_MESHES = "create_"
 # MeshLab's names of before 2016.12, which PyMeshLab's own table of old names does not reach.
@@ -244,6 +245,7 @@ def _param(entry: dict[str, Any], name: str, kind: str, choices: Iterable[str] =
 @functools.cache
 def _ours(filter_: Filter) -> Known:
     params = tuple(
-        KnownParam(p.name, p.name, _TYPES[p.type], p.choices, False) for p in filter_.parameters
+        KnownParam(p.name, p.name, "RichEnum" if p.choices else _TYPES[p.type], p.choices, False)
+        for p in filter_.parameters
     )
     return Known(filter_.name, filter_.meshlab_name, params, True, False, filter_.summary)

@@ -8,7 +8,7 @@ from typing import Any
 
 from pymeshlab import MeshSet
 
-from .filters import Filter
+from .filter import Filter
 from .parameters import Parameter
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numbers
 import operator
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NamedTuple
@@ -21,7 +22,7 @@ class Parameter(NamedTuple):
     name : str
         The keyword: lower case, without underscores.
     type : type
-        bool, int, float, or str for an enum.
+        bool, int, float, or str: an enum where there are choices, else a text.
     default : object or callable
         The default; a callable gets the set, or None where there is no mesh to ask. (Not the mesh:
         an exception on the way would keep it held.)
@@ -54,6 +55,11 @@ class Parameter(NamedTuple):
             return f"'{value}'"
         return f"{value:g}" if self.type is float else str(value)
 
+    def _expected(self) -> str:
+        if self.type is str:
+            return "one of its names, or an index" if self.choices else "a text or a number"
+        return _EXPECTED[self.type]
+
     def read(self, value: Any) -> Any:
         """The value that a caller gave, in the parameter's own type; an enum's index.
 
@@ -69,7 +75,7 @@ class Parameter(NamedTuple):
         except (TypeError, OverflowError) as error:
             raise ParameterTypeError(
                 f"Parameter {self.name}: {value!r} is a {type(value).__name__}, "
-                f"{_EXPECTED[self.type]} is expected."
+                f"{self._expected()} is expected."
             ) from error
 
 
@@ -90,6 +96,19 @@ def _read_float(_: Parameter, value: Any) -> float:
     if isinstance(value, (str, bytes)):
         raise TypeError
     return float(value)
+
+
+def _read_str(parameter: Parameter, value: Any) -> int | str:
+    return _read_enum(parameter, value) if parameter.choices else _read_text(value)
+
+
+def _read_text(value: Any) -> str:
+    """A text; a number, which a text may stand for, is written with all its digits."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        raise TypeError
+    return repr(float(value))
 
 
 def _read_enum(parameter: Parameter, value: Any) -> int:
@@ -113,13 +132,12 @@ _READERS: dict[type, Callable[[Parameter, Any], Any]] = {
     bool: _read_bool,
     int: _read_int,
     float: _read_float,
-    str: _read_enum,
+    str: _read_str,
 }
 _EXPECTED = {
     bool: "a bool",
     int: "an int",
     float: "a float",
-    str: "one of its names, or an index",
 }
 
 

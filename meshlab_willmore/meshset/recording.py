@@ -21,7 +21,8 @@ from pymeshlab import MeshSet
 from ..mlx.read import read, read_bytes
 from ..mlx.steps import Param, ScriptError, Step, Value
 from . import catalogue, native, numbering
-from .filters import FILTERS, Filter
+from .filter import Filter
+from .filters import FILTERS
 from .modern import modernised
 
 Noted = dict[str, Value]

@@ -21,7 +21,8 @@ from ..mlx.write import write
 from . import layers, native, numbering, recording
 from .apply import apply, values_of
 from .check import resolve
-from .filters import BY_NAME, FILTERS, Filter
+from .filter import Filter
+from .filters import BY_NAME, FILTERS
 from .listing import listing
 from .methods import method_of
 from .play import play

@@ -53,7 +53,7 @@ class Match(NamedTuple):
     One shared: the corners that it is at. Two shared: the corners that are left over.
     """
 
-    count: int
+    shared: int
     corner: int
     other: int
 
@@ -76,14 +76,14 @@ def match(one, other):
 
 
 @jit
-def cut_exactly(one, other, shared):
-    """Tell whether two faces cut each other; `shared` is their match."""
-    if shared.count == 0:
+def cut_exactly(one, other, common):
+    """Tell whether two faces cut each other; `common` is their match."""
+    if common.shared == 0:
         return triangles.triangles_meet(one.a, one.b, one.c, other.a, other.b, other.c)
-    if shared.count == CORNERS:
+    if common.shared == CORNERS:
         return True
-    p, q = from_corner(one, shared.corner), from_corner(other, shared.other)
-    if shared.count == 1:
+    p, q = from_corner(one, common.corner), from_corner(other, common.other)
+    if common.shared == 1:
         return triangles.meet_besides(p.a, p.b, p.c, q.b, q.c)
     return triangles.meet_beyond(p.b, p.c, p.a, q.a)
 
@@ -105,18 +105,18 @@ def _boxes_touch_at_most(one, other):
 
 
 @jit
-def count_as_cut(one, other, shared, area_scale):
+def count_as_cut(one, other, common, area_scale):
     """Tell whether MeshLab may count two faces as cut; `one` has the lower number of both.
 
     See `meshlab_willmore.guards.rounded` for the area scale.
     """
-    if shared.count == 2 or _boxes_touch_at_most(one, other):
+    if common.shared == 2 or _boxes_touch_at_most(one, other):
         return False
-    if shared.count == 0:
+    if common.shared == 0:
         return rounded.triangles_meet(one.a, one.b, one.c, other.a, other.b, other.c)
-    if shared.count == CORNERS:
+    if common.shared == CORNERS:
         return True
-    p, q = from_corner(one, shared.corner), from_corner(other, shared.other)
+    p, q = from_corner(one, common.corner), from_corner(other, common.other)
     return rounded.side_meets(
         p.a, p.b, p.c, other.a, other.b, other.c, area_scale
     ) or rounded.side_meets(q.a, q.b, q.c, one.a, one.b, one.c, area_scale)

@@ -201,18 +201,22 @@ def _fill(mesh, space):
 
 
 @jit
+def _rebound(mesh, space, f):
+    """Compute the boxes that hold the face `f` again."""
+    leaf = np.int64(space.leaf[f])
+    changed = _bound_leaf(mesh, space, leaf)
+    node = len(space.box) // 2 + leaf
+    while changed and node > 0:
+        node = (node - 1) // 2
+        changed = _bound_node(space, node)
+
+
+@jit
 def follow(mesh, space, h):
     """Bring the index up to date, in place, after the flip of `h` (or several in one quad)."""
-    if not space.active:
-        return
-    leaves = (len(space.box) + 1) // 2
-    for half in (h, mesh.twin[h]):
-        leaf = space.leaf[half // 3]
-        changed = _bound_leaf(mesh, space, leaf)
-        node = leaves - 1 + leaf
-        while changed and node > 0:
-            node = (node - 1) // 2
-            changed = _bound_node(space, node)
+    if space.active:
+        _rebound(mesh, space, h // 3)
+        _rebound(mesh, space, mesh.twin[h] // 3)
 
 
 @jit
@@ -305,8 +309,8 @@ def _are_refused(one, f, other, g, area_scale):
     """Tell whether the faces `one` and `other`, with the numbers f and g, count as cut."""
     if f > g:
         one, other = other, one
-    shared = match(one, other)
-    return count_as_cut(one, other, shared, area_scale) or cut_exactly(one, other, shared)
+    common = match(one, other)
+    return count_as_cut(one, other, common, area_scale) or cut_exactly(one, other, common)
 
 
 @jit
@@ -338,7 +342,7 @@ def blocker(mesh, space, h):
         cut each other. As long as this face and the two at `h` stay, the answer stays.
     """
     t = mesh.twin[h]
-    f, g = h // 3, t // 3
+    f, g = np.int64(h // 3), np.int64(t // 3)
     one, other = _new_faces(mesh, h)
     if _are_refused(one, f, other, g, space.area_scale):
         return f

@@ -83,7 +83,7 @@ def test_all_ways_to_share_vertices_are_found():
         for other in itertools.permutations(range(6), 3):
             found = faces.match(faces.face_of(vertices, *one), faces.face_of(vertices, *other))
             common = set(one) & set(other)
-            assert found.count == len(common)
+            assert found.shared == len(common)
             if len(common) == 1:
                 assert {one[found.corner]} == {other[found.other]} == common
             if len(common) == 2:

@@ -13,11 +13,14 @@ from .energy.gaussian_curvature import angle_defects
 from .energy.triangles import corners
 from .energy.willmore import edge_angle
 from .guards import triangle_shape
+from .guards.space import mark_cuts, space_of
 from .mesh.build import build, interior_vertices
 from .mesh.jit import jit
 from .mesh.validate import check_mesh, in_input_units, to_unit_scale
 
 FULL_TURN = 2.0 * math.pi
+# Faces between two looks at the keyboard.
+SLICE = 20_000
 
 
 class Measures(NamedTuple):
@@ -169,6 +172,41 @@ def triangle_shapes(vertices, faces):
         As `meshlab_willmore.mesh.validate.check_mesh`.
     """
     return _shapes(_unit_mesh(vertices, faces)[0])
+
+
+def self_intersections(vertices, faces):
+    """Return which faces cut another one.
+
+    Two faces cut each other if they share a point that their common vertices do not account for:
+    any point if they have none in common, even if they only touch; any besides the common vertex;
+    any besides the common edge, which is the case where one is folded back onto the other. Faces
+    with the same three vertices do. This is decided exactly, and holds for faces without area too.
+
+    Parameters
+    ----------
+    vertices : (n, 3) array_like of float
+    faces : (m, 3) array_like of int
+
+    Returns
+    -------
+    (m,) bool
+
+    Raises
+    ------
+    TypeError, ValueError
+        As `meshlab_willmore.mesh.validate.check_mesh`.
+
+    Notes
+    -----
+    MeshLab's compute_selection_by_self_intersections_per_face goes by rounded numbers, skips faces
+    that share an edge, and may count others.
+    """
+    mesh, _ = _unit_mesh(vertices, faces)
+    space = space_of(mesh)
+    marked = np.zeros(len(mesh.origin) // 3, np.bool_)
+    for start in range(0, len(marked), SLICE):
+        mark_cuts(mesh, space, marked, start, min(start + SLICE, len(marked)))
+    return marked
 
 
 def willmore_energy_of(mesh):

@@ -8,6 +8,7 @@ import numpy as np
 
 from . import guards
 from .energy.kinds import KINDS
+from .guards import space as spaces
 from .measure import willmore_energy_of
 from .mesh.build import build, faces_of
 from .mesh.halfedge import lengths_of_sides
@@ -85,10 +86,10 @@ class FlipResult(NamedTuple):
         two differ by a constant.
     converged : bool
         True if no allowed flip lowers the energy any more. Allowed is what neither connectivity,
-        locks and the fold guard nor, with "virtual willmore", the rule of the option `monotone`
-        forbid. With True, that rule forbids flips that raise the Willmore energy; with False, flips
-        to an edge that was flipped away before. So there may be flips left that would lower the
-        energy. The search "variable depth" says so of chains of flips.
+        locks and guards nor, with "virtual willmore", the rule of the option `monotone` forbid.
+        With True, that rule forbids flips that raise the Willmore energy; with False, flips to an
+        edge that was flipped away before. So there may be flips left that would lower the energy.
+        The search "variable depth" says so of chains of flips.
     reason : str
         Why it stopped.
     corners : (m, 3) int32
@@ -125,6 +126,7 @@ def optimize_flips(
     breadth=3,
     monotone=True,
     foldangle=90.0,
+    checkintersections=False,
     featuredeg=180.0,
     selected_faces=None,
     locked_edges=None,
@@ -176,6 +178,11 @@ def optimize_flips(
         Degrees in [0, 180]. Refuse flips to an edge with a larger dihedral angle (0 is flat) than
         this and than the old edge, and flips to a sliver (shape below 0.05 and below the worse old
         one). 180: allow all.
+    checkintersections : bool
+        Refuse flips that make one of the two new faces cut any other face of the mesh: to touch it
+        without a common vertex, or to share more with it than their common vertices, is to cut it.
+        Cuts that the mesh has already may stay or go. What MeshLab counts as self-intersecting
+        faces never grows either.
     featuredeg : float
         Degrees in [0, 180]. Keep edges whose dihedral angle in the input is this or more, up to
         0.01 degrees either way: at 30, the sides of a cylinder with twelve of them stay. 0: keep
@@ -222,16 +229,18 @@ def optimize_flips(
         None if selected_faces is None else check_mask(selected_faces, len(faces)),
         None if locked_edges is None else check_edges(locked_edges),
     )
+    is_guarded = check_flag("checkintersections", checkintersections)
     scaled, exponent = to_unit_scale(vertices, faces)
     mesh = build(scaled, faces)
     _apply_locks(mesh, locks)
     before = willmore_energy_of(mesh)
     kind, kernels = KINDS[energy], KERNELS[energy]
     rules = _suited(rules, kind, mesh)
+    space = spaces.space_of(mesh, exponent) if is_guarded else spaces.no_space()
     if search == "greedy":
-        progress = greedy.run(kernels.greedy, mesh, rules)
+        progress = greedy.run(kernels.greedy, mesh, rules, space)
     else:
-        progress = variable_depth.run(kernels.depth, kernels.greedy, mesh, rules, reach)
+        progress = variable_depth.run(kernels.depth, kernels.greedy, mesh, rules, reach, space)
     return FlipResult(
         faces=faces_of(mesh),
         flips=progress.flips,

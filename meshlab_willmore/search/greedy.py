@@ -9,11 +9,13 @@
             rescore k-l, the four sides, and the two other edges of each face outside (13 edges)
         for an energy that looks further: rescore the edges at and opposite to i, j, k and l
             rescore the edges that could not be flipped because i-j was there
+            rescore the edges whose flip would have cut one of the two old faces
 
 An edge may be flipped if connectivity and guards allow it, if its cost reduction exceeds a
 tolerance and, under the *monotone* rule, if the Willmore energy does not rise. All this depends on
-the diamond and the faces around it only, except for the existence of k-l, which the last line
-covers: when the queue is empty, no flip is left. n flips take O(n log n) time.
+the diamond and the faces around it only, except for the existence of k-l and for the faces that
+the new ones would cut, which the last two lines cover: when the queue is empty, no flip is left.
+n flips take O(n log n) time. Cuts are dear to find, so that only the edge taken is asked.
 
 **Why it ends.** Where the cost reduction is the drop of an energy, by more than rounding, no
 triangulation comes back. That of the virtual Willmore energy is not, and descent on it alone can go
@@ -33,6 +35,8 @@ import numpy as np
 
 from .. import guards
 from ..energy import willmore
+from ..guards import space as spaces
+from ..guards.space import Space
 from ..mesh.halfedge import (
     NONE,
     Mesh,
@@ -47,6 +51,7 @@ from ..mesh.halfedge import (
 from ..mesh.jit import generic, jit
 from .heap import NEVER, Queue, empty_queue, first, update
 from .pairs import Pairs, contains, insert, no_pairs, reserve
+from .waiting import Waiting, leave, nothing_waits, wait
 
 WORKING, CONVERGED, STOPPED = range(3)
 # Work between two looks at the keyboard, counted in scored edges: some hundredths of a second.
@@ -94,6 +99,8 @@ class Task(NamedTuple):
     queue: Queue
     gone: Pairs
     rules: Rules
+    space: Space
+    waiting: Waiting
 
 
 class Progress(NamedTuple):
@@ -212,6 +219,43 @@ def _brings_back(task, h):
     return contains(task.gone, apex(mesh, h), apex(mesh, mesh.twin[h]))
 
 
+@jit
+def _is_blocked(task, h):
+    """Tell whether a new face would cut another one, and if so, wait until that changes."""
+    if not task.space.active:
+        return False
+    face = spaces.blocker(task.mesh, task.space, h)
+    if face == NONE:
+        return False
+    wait(task.waiting, h, face)
+    return True
+
+
+@generic
+def _rescore_waiting(task, face, cost_reduction):
+    """Rescore the edges that have waited for a change of `face`."""
+    h = np.int64(task.waiting.first[face])
+    while h != NONE:
+        leave(task.waiting, h)
+        _rescore(task, h, cost_reduction)
+        h = np.int64(task.waiting.first[face])
+
+
+@generic
+def _flip(task, h, cost_reduction):
+    """Flip `h`, and bring everything up to date."""
+    flip(task.mesh, h)
+    if task.rules.is_wide:
+        _rescore_fans(task, h, cost_reduction)
+    else:
+        _rescore_around(task, h, cost_reduction)
+    _rescore_freed(task, h, cost_reduction)
+    if task.space.active:
+        spaces.follow(task.mesh, task.space, h)
+        _rescore_waiting(task, h // 3, cost_reduction)
+        _rescore_waiting(task, task.mesh.twin[h] // 3, cost_reduction)
+
+
 @generic
 def advance(task, progress, cost_reduction):
     """Go on with the search for about `SLICE` scored edges.
@@ -244,7 +288,11 @@ def advance(task, progress, cost_reduction):
             return scored, flips, gain, CONVERGED
         h = first(queue)
         keep_away = _must_stay_away(task, h)
-        if not makes_new_edge(mesh, h) or (keep_away and _brings_back(task, h)):
+        if (
+            not makes_new_edge(mesh, h)
+            or (keep_away and _brings_back(task, h))
+            or _is_blocked(task, h)
+        ):
             update(queue, h, NEVER)
             continue
         if flips == task.rules.maxflips:
@@ -253,16 +301,11 @@ def advance(task, progress, cost_reduction):
             insert(task.gone, mesh.origin[h], mesh.origin[mesh.twin[h]])
         flips += 1
         gain += cost_reduction(mesh, h)
-        flip(mesh, h)
-        if task.rules.is_wide:
-            _rescore_fans(task, h, cost_reduction)
-        else:
-            _rescore_around(task, h, cost_reduction)
-        _rescore_freed(task, h, cost_reduction)
+        _flip(task, h, cost_reduction)
     return scored, flips, gain, WORKING
 
 
-def run(kernel, mesh, rules):
+def run(kernel, mesh, rules, space=None):
     """Flip edges of `mesh` in place until no allowed flip helps, or the limit is reached.
 
     The kernel works in slices, so that an interrupt is served between two of them.
@@ -273,13 +316,18 @@ def run(kernel, mesh, rules):
         `advance` for one energy, from `meshlab_willmore.search.entries`.
     mesh : Mesh
     rules : Rules
+    space : Space, optional
+        The guard against self-intersections, up to date with the mesh, and so it stays. None: there
+        is no such guard.
 
     Returns
     -------
     Progress
         Its state is `CONVERGED` or `STOPPED`.
     """
-    task = Task(mesh, empty_queue(len(mesh.origin)), no_pairs(), rules)
+    space = spaces.no_space() if space is None else space
+    waiting = nothing_waits(len(space.order))
+    task = Task(mesh, empty_queue(len(mesh.origin)), no_pairs(), rules, space, waiting)
     progress = Progress(0, 0, 0.0, WORKING)
     while progress.state == WORKING:
         task = task._replace(gone=reserve(task.gone, SLICE // SCORES_PER_FLIP))

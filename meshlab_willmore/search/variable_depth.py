@@ -27,7 +27,8 @@ most D edges away from i or j. (The quad around an edge, and the corners of the 
 neighbours of i or j; one flip leads to edges between these. That an edge exists is known at both of
 its ends. An energy that looks further, `Rules.is_wide`, reads one ring more.) So when all edges
 were tried, and then those within D edges of a change, over and over until nothing changes, no chain
-is left. That takes O(n) time for each round of n edges.
+is left. That takes O(n) time for each round of n edges. Only the guard against self-intersections
+looks farther. Starts from which it has refused a flip are noted, and tried again in each round.
 """
 
 from typing import NamedTuple
@@ -36,6 +37,8 @@ import numpy as np
 
 from .. import guards
 from ..energy import willmore
+from ..guards import space as spaces
+from ..guards.space import Space
 from ..mesh.halfedge import (
     NONE,
     Mesh,
@@ -142,7 +145,9 @@ class Pending(NamedTuple):
 class Task(NamedTuple):
     """What the search works on; it changes all but the rules in place.
 
-    `touched` (n,) marks the vertices of the diamonds that were flipped for good.
+    `touched` (n,) marks the vertices of the diamonds that were flipped for good, `blocked` (3 m,)
+    the starts of chains that failed after a flip was refused for a cut; whether that was so in the
+    chain at hand is in `refused` (1,).
     """
 
     mesh: Mesh
@@ -150,6 +155,9 @@ class Task(NamedTuple):
     chain: Chain
     touched: np.ndarray
     rules: Rules
+    space: Space
+    blocked: np.ndarray
+    refused: np.ndarray
 
 
 class Prefix(NamedTuple):
@@ -239,9 +247,17 @@ def ring_around(mesh, h, ring):
 
 
 @jit
-def _may_flip(mesh, h, rules):
+def _may_flip(task, h):
     """Tell whether connectivity, locks and guards allow to flip `h`, energies aside."""
-    return is_free(mesh, h) and not guards.folds(mesh, h, rules.fold) and makes_new_edge(mesh, h)
+    mesh = task.mesh
+    if not is_free(mesh, h) or guards.folds(mesh, h, task.rules.fold):
+        return False
+    if not makes_new_edge(mesh, h):
+        return False
+    if spaces.cuts(mesh, task.space, h):
+        task.refused[0] = True
+        return False
+    return True
 
 
 @jit
@@ -292,7 +308,7 @@ def _next_candidate(task, s):
         place = chain.seen[s]
         chain.seen[s] += 1
         h = chain.candidate[s, place]
-        if not _is_joined(task, h, s) and _may_flip(task.mesh, h, task.rules):
+        if not _is_joined(task, h, s) and _may_flip(task, h):
             chain.tried[s] += 1
             return place
     return NONE
@@ -333,6 +349,7 @@ def _do(task, s):
         chain.corner[s, c] = mesh.corner[h - h % 3 + c]
         chain.corner[s, 3 + c] = mesh.corner[t - t % 3 + c]
     flip(mesh, h)
+    spaces.follow(mesh, task.space, h)
 
 
 @jit
@@ -345,6 +362,7 @@ def _undo(task, s):
     flip(mesh, h)
     flip(mesh, h)
     flip(mesh, h)
+    spaces.follow(mesh, task.space, h)
     for c in range(3):
         mesh.corner[h - h % 3 + c] = chain.corner[s, c]
         mesh.corner[t - t % 3 + c] = chain.corner[s, 3 + c]
@@ -368,7 +386,7 @@ def _finish(task, count, s, best, ranking, judge):
         drop = score if judge is None else judge(mesh, h)
         if not chain.drop[s] + drop > best.drop + rules.tolerance:
             continue
-        if not _is_joined(task, h, s) and _may_flip(mesh, h, rules):
+        if not _is_joined(task, h, s) and _may_flip(task, h):
             _add(task, h, s, score, drop)
             best = _better(task, s + 1, best)
     return best
@@ -441,6 +459,7 @@ def _keep(task, length):
         for around in (h, mesh.twin[h]):
             task.touched[mesh.origin[around]] = task.touched[apex(mesh, around)] = True
         flip(mesh, h)
+        spaces.follow(mesh, task.space, h)
         # A later flip of the chain moves edges to other half-edges, but queues all these as well.
         _append(mesh, task.pending, h)
         for place in range(ring_around(mesh, h, chain.ring)):
@@ -476,9 +495,11 @@ def advance(task, progress, ranking, judge):
         # A flip has put another edge there, which waits under its own name.
         if mesh.twin[h] < h:
             continue
+        task.refused[0] = False
         best, more = find_chain(task, h, ranking, judge)
         work += more
         if best.length == 0:
+            task.blocked[h] = task.refused[0]
             continue
         if flips + best.length > task.rules.maxflips:
             return scored, flips, gain, STOPPED
@@ -512,6 +533,15 @@ def _queue_near(mesh, pending, touched, hops):
     touched[:] = False
 
 
+@jit
+def _queue_blocked(mesh, pending, blocked):
+    """Queue every edge that is marked, and clear the marks."""
+    for h in range(len(blocked)):
+        if blocked[h]:
+            _append(mesh, pending, h)
+    blocked[:] = False
+
+
 def _work_off(kernel, task, progress):
     """Go on slice by slice until the queue is empty or the limit is reached."""
     progress = progress._replace(state=WORKING)
@@ -520,7 +550,7 @@ def _work_off(kernel, task, progress):
     return progress
 
 
-def run(kernel, descent, mesh, rules, reach):
+def run(kernel, descent, mesh, rules, reach, space=None):
     """Flip edges of `mesh` in place until no allowed chain helps, or the limit is reached.
 
     Chains that do not branch come first: they are cheap, and do most of the work.
@@ -536,25 +566,30 @@ def run(kernel, descent, mesh, rules, reach):
         A chain that would exceed `maxflips` is not made. Under the monotone rule no chain as a
         whole raises the Willmore energy; its single flips may.
     reach : Reach
+    space : Space, optional
+        As for `meshlab_willmore.search.greedy.run`. It holds for each flip of a chain.
 
     Returns
     -------
     Progress
         Its state is `CONVERGED` or `STOPPED`.
     """
-    progress = greedy.run(descent, mesh, rules)
+    space = spaces.no_space() if space is None else space
+    progress = greedy.run(descent, mesh, rules, space)
     if progress.state == STOPPED:
         return progress
     touched = np.zeros(len(mesh.vertices), np.bool_)
+    blocked, refused = np.zeros(len(mesh.origin), np.bool_), np.zeros(1, np.bool_)
     pending = _nothing_pending(mesh)
     for stage in dict.fromkeys((reach._replace(breadth=1), reach)):
-        task = Task(mesh, pending, _no_chain(stage), touched, rules)
-        touched[:] = False
+        task = Task(mesh, pending, _no_chain(stage), touched, rules, space, blocked, refused)
+        touched[:] = blocked[:] = False
         _queue_all(mesh, pending)
         progress = _work_off(kernel, task, progress)
         if progress.state == STOPPED:
             return progress
     while progress.state == CONVERGED and touched.any():
         _queue_near(mesh, pending, touched, reach.depth + rules.is_wide)
+        _queue_blocked(mesh, pending, blocked)
         progress = _work_off(kernel, task, progress)
     return progress

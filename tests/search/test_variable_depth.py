@@ -7,6 +7,7 @@ import pytest
 
 from meshlab_willmore import guards
 from meshlab_willmore.energy import virtual, willmore
+from meshlab_willmore.guards.space import no_space
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import NONE, apex, can_flip, flip, following, previous
 from meshlab_willmore.mesh.jit import generic, jit
@@ -194,7 +195,16 @@ def new_task(mesh, rules, reach):
     pending = variable_depth._nothing_pending(mesh)
     variable_depth._queue_all(mesh, pending)
     touched = np.zeros(len(mesh.vertices), bool)
-    return variable_depth.Task(mesh, pending, variable_depth._no_chain(reach), touched, rules)
+    return variable_depth.Task(
+        mesh,
+        pending,
+        variable_depth._no_chain(reach),
+        touched,
+        rules,
+        no_space(),
+        np.zeros(len(mesh.origin), bool),
+        np.zeros(1, bool),
+    )
 
 
 @pytest.mark.heavy

@@ -1,88 +1,22 @@
-"""Which flips are allowed beyond what the connectivity says: locks set once, and the fold guard.
+"""Edges that stay: a property of the input, computed once.
 
-Locks are a property of the input and are computed once; flips never change which edges are locked.
-The fold guard looks at each flip by itself.
+Flips never change which edges are locked.
 """
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
-from .mesh.build import sort_by_vertex
-from .mesh.halfedge import NONE, diamond, following, previous
-from .mesh.jit import jit
-from .mesh.points import angle_between, dot, norm, normal, subtract
+from ..mesh.build import sort_by_vertex
+from ..mesh.halfedge import NONE, diamond, following, previous
+from ..mesh.jit import jit
+from .fold import dihedral_angle, triangle_shape
 
-FLAT_ANGLE = 180.0
 # Files hold coordinates in single precision: that far, in radians, the angles of a technical part
 # are from the round numbers they were drawn with.
 CREASE_SLACK = math.radians(0.01)
 # The normal of a face of a lower shape is made of rounding, for the same reason.
 CREASE_SHAPE = 1e-5
-SHAPE_OF_EQUILATERAL = 2.0 * math.sqrt(3.0)
-
-
-class FoldLimits(NamedTuple):
-    """When a flip counts as a fold.
-
-    Attributes
-    ----------
-    active : bool
-        Whether anything is refused at all.
-    angle : float
-        Dihedral angle in radians, 0 between coplanar faces, that a new edge may always have.
-    slack : float
-        Radians by which rounding may push an angle over its limit (right angles are common).
-    shape : float
-        Triangle shape in [0, 1] below which a flip must not bring the worse face.
-    """
-
-    active: bool
-    angle: float
-    slack: float = 1e-9
-    shape: float = 0.05
-
-
-def fold_limits(foldangle):
-    """Return the limits for a largest dihedral angle in degrees; 180 turns the guard off."""
-    return FoldLimits(foldangle < FLAT_ANGLE, math.radians(foldangle))
-
-
-@jit
-def triangle_shape(a, b, c):
-    """Return 4 sqrt(3) area / (sum of squared sides): 1 if equilateral, 0 if degenerate."""
-    ab, bc, ca = subtract(b, a), subtract(c, b), subtract(a, c)
-    squares = dot(ab, ab) + dot(bc, bc) + dot(ca, ca)
-    if not squares > 0.0:
-        return 0.0
-    return SHAPE_OF_EQUILATERAL * norm(normal(a, b, c)) / squares
-
-
-@jit
-def dihedral_angle(mesh, h):
-    """Return the angle between the normals at `h`, which has a twin; 0 if one is zero."""
-    i, j, k, l = diamond(mesh, h)
-    return angle_between(normal(i, j, k), normal(j, i, l))
-
-
-@jit
-def folds(mesh, h, limits):
-    """Tell whether to flip `h` would fold the surface or make a sliver.
-
-    True if the dihedral angle of the new edge exceeds both the old one and the limit, or if the
-    worse shape of the two faces falls below both the old one and the limit.
-    """
-    if not limits.active:
-        return False
-    i, j, k, l = diamond(mesh, h)
-    before = angle_between(normal(i, j, k), normal(j, i, l))
-    after = angle_between(normal(k, i, l), normal(l, j, k))
-    if after > max(before, limits.angle) + limits.slack:
-        return True
-    worse_before = min(triangle_shape(i, j, k), triangle_shape(j, i, l))
-    worse_after = min(triangle_shape(k, i, l), triangle_shape(l, j, k))
-    return worse_after < min(worse_before, limits.shape)
 
 
 @jit

@@ -1,0 +1,396 @@
+"""The guard against self-intersections, with an index of the faces that follows the flips.
+
+A flip is refused if one of its two new faces would cut any other face of the mesh, or both would
+cut each other. Cuts that the mesh has already may stay or go: their number never grows.
+
+**The index** is a perfect binary tree of boxes. Its leaves hold a few faces each, split by the
+median of their middles along the longest side, once for the input. A flip changes two faces within
+the outline of their quad, and faces keep their leaves: only the boxes from these two leaves up to
+the first one that stays as it was are computed again. So all arrays keep their size, and one huge
+face, or all points on a line, do no harm. The tree stands in an array, node p over 2 p + 1 and
+2 p + 2, and is walked without a stack.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..mesh.halfedge import NONE, apex, diamond
+from ..mesh.jit import jit
+from .faces import count_as_cut, cut_exactly, face_of, from_corner, match
+
+# Faces in a leaf: half as many up to as many. More cost more tests, fewer cost memory.
+LEAF_FACES = 4
+SIDES = 6
+
+
+class Space(NamedTuple):
+    """Where the faces of a mesh are.
+
+    Attributes
+    ----------
+    active : bool
+        Whether anything is refused at all. If not, the arrays are empty.
+    area_scale : float
+        Area in squared units of the input's coordinates of what has the area 1 in the mesh.
+    box : (2 b - 1, 6) float64
+        Least x, y, z and largest x, y, z of the faces below each node; the last b are leaves.
+    order : (m,) int32
+        Faces leaf by leaf.
+    leaf : (m,) int32
+        Leaf of each face, 0 .. b - 1.
+    """
+
+    active: bool
+    area_scale: float
+    box: np.ndarray
+    order: np.ndarray
+    leaf: np.ndarray
+
+
+def no_space():
+    """Return the space that refuses nothing."""
+    empty = np.empty(0, np.int32)
+    return Space(False, 1.0, np.empty((0, SIDES)), empty, empty)
+
+
+def space_of(mesh, exponent=0):
+    """Return the index of a mesh, in O(m log m) time.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        At unit scale.
+    exponent : int
+        The input's coordinates are those of the mesh times ``2**exponent``.
+    """
+    faces = len(mesh.origin) // 3
+    if not faces:
+        return no_space()
+    leaves = 1
+    while leaves * LEAF_FACES < faces:
+        leaves *= 2
+    with np.errstate(over="ignore", under="ignore"):
+        area_scale = float(np.ldexp(1.0, 2 * exponent))
+    order = np.arange(faces, dtype=np.int32)
+    space = Space(
+        True, area_scale, np.empty((2 * leaves - 1, SIDES)), order, np.empty(faces, np.int32)
+    )
+    _split(order, _middles(mesh), leaves)
+    _fill(mesh, space)
+    return space
+
+
+@jit
+def _middles(mesh):
+    """Return the middles of the boxes of all faces, twice as large (m, 3)."""
+    middles = np.empty((len(mesh.origin) // 3, 3))
+    for f in range(len(middles)):
+        u, v, w = mesh.origin[3 * f], mesh.origin[3 * f + 1], mesh.origin[3 * f + 2]
+        for axis in range(3):
+            a, b, c = mesh.vertices[u, axis], mesh.vertices[v, axis], mesh.vertices[w, axis]
+            middles[f, axis] = min(a, b, c) + max(a, b, c)
+    return middles
+
+
+@jit
+def _longest_axis(order, middles, start, stop):
+    """Return the axis along which the middles of some faces lie farthest apart."""
+    longest, best = -1.0, 0
+    for axis in range(3):
+        least = most = middles[order[start], axis]
+        for place in range(start + 1, stop):
+            least = min(least, middles[order[place], axis])
+            most = max(most, middles[order[place], axis])
+        if most - least > longest:
+            longest, best = most - least, axis
+    return best
+
+
+@jit
+def _select(order, keys, first, last, middle):
+    """Reorder the places `first` .. `last`, so that no key before `middle` is above one after it.
+
+    Hoare's algorithm "Find".
+    """
+    while first < last:
+        pivot = keys[order[(first + last) // 2]]
+        i, j = first, last
+        while i <= j:
+            while keys[order[i]] < pivot:
+                i += 1
+            while keys[order[j]] > pivot:
+                j -= 1
+            if i <= j:
+                order[i], order[j] = order[j], order[i]
+                i += 1
+                j -= 1
+        if middle <= j:
+            last = j
+        elif middle >= i:
+            first = i
+        else:
+            return
+
+
+@jit
+def _start(leaf, faces, leaves):
+    """Return the first place of a leaf in the order; all leaves are the same size, or one more."""
+    return np.int64(leaf) * faces // leaves
+
+
+@jit
+def _split(order, middles, leaves):
+    """Sort the faces into the leaves: halve all, then each half, and so on."""
+    width = leaves
+    while width > 1:
+        for leaf in range(0, leaves, width):
+            start = _start(leaf, len(order), leaves)
+            middle = _start(leaf + width // 2, len(order), leaves)
+            stop = _start(leaf + width, len(order), leaves)
+            axis = _longest_axis(order, middles, start, stop)
+            _select(order, middles[:, axis], start, stop - 1, middle)
+        width //= 2
+
+
+@jit
+def _bound_leaf(mesh, space, leaf):
+    """Compute the box of a leaf again; tell whether it has changed."""
+    faces, leaves = len(space.order), (len(space.box) + 1) // 2
+    node, changed = leaves - 1 + leaf, False
+    for axis in range(3):
+        least, most = np.inf, -np.inf
+        for place in range(_start(leaf, faces, leaves), _start(leaf + 1, faces, leaves)):
+            for h in range(3 * space.order[place], 3 * space.order[place] + 3):
+                value = mesh.vertices[mesh.origin[h], axis]
+                least, most = min(least, value), max(most, value)
+        changed |= _set_span(space, node, axis, least, most)
+    return changed
+
+
+@jit
+def _bound_node(space, node):
+    """Compute the box of an inner node again; tell whether it has changed."""
+    changed = False
+    left, right = 2 * node + 1, 2 * node + 2
+    for axis in range(3):
+        least = min(space.box[left, axis], space.box[right, axis])
+        most = max(space.box[left, 3 + axis], space.box[right, 3 + axis])
+        changed |= _set_span(space, node, axis, least, most)
+    return changed
+
+
+@jit
+def _set_span(space, node, axis, least, most):
+    if space.box[node, axis] == least and space.box[node, 3 + axis] == most:
+        return False
+    space.box[node, axis], space.box[node, 3 + axis] = least, most
+    return True
+
+
+@jit
+def _fill(mesh, space):
+    leaves = (len(space.box) + 1) // 2
+    for leaf in range(leaves):
+        stop = _start(leaf + 1, len(space.order), leaves)
+        for place in range(_start(leaf, len(space.order), leaves), stop):
+            space.leaf[space.order[place]] = leaf
+        _bound_leaf(mesh, space, leaf)
+    for node in range(leaves - 2, -1, -1):
+        _bound_node(space, node)
+
+
+@jit
+def _rebound(mesh, space, f):
+    """Compute the boxes that hold the face `f` again."""
+    leaf = np.int64(space.leaf[f])
+    changed = _bound_leaf(mesh, space, leaf)
+    node = len(space.box) // 2 + leaf
+    while changed and node > 0:
+        node = (node - 1) // 2
+        changed = _bound_node(space, node)
+
+
+@jit
+def follow(mesh, space, h):
+    """Bring the index up to date, in place, after the flip of `h` (or several in one quad)."""
+    if space.active:
+        _rebound(mesh, space, h // 3)
+        _rebound(mesh, space, mesh.twin[h] // 3)
+
+
+@jit
+def box_around(a, b, c, d):
+    """Return least x, y, z and largest x, y, z of four points."""
+    return (
+        min(a.x, b.x, c.x, d.x),
+        min(a.y, b.y, c.y, d.y),
+        min(a.z, b.z, c.z, d.z),
+        max(a.x, b.x, c.x, d.x),
+        max(a.y, b.y, c.y, d.y),
+        max(a.z, b.z, c.z, d.z),
+    )
+
+
+@jit
+def boxes_meet(one, other):
+    """Tell whether two closed boxes share a point."""
+    return (
+        one[0] <= other[3]
+        and one[1] <= other[4]
+        and one[2] <= other[5]
+        and other[0] <= one[3]
+        and other[1] <= one[4]
+        and other[2] <= one[5]
+    )
+
+
+@jit
+def next_leaf(space, node, box):
+    """Return the first node from `node` on, in the order of the tree, that is a leaf in reach.
+
+    Returns
+    -------
+    int
+        A leaf whose box meets `box`, or `NONE` if there is none. Go on with `after`.
+    """
+    inner = len(space.box) // 2
+    while node != NONE:
+        meets = (
+            space.box[node, 0] <= box[3]
+            and space.box[node, 1] <= box[4]
+            and space.box[node, 2] <= box[5]
+            and space.box[node, 3] >= box[0]
+            and space.box[node, 4] >= box[1]
+            and space.box[node, 5] >= box[2]
+        )
+        if not meets:
+            node = after(node)
+        elif node < inner:
+            node = 2 * node + 1
+        else:
+            return node
+    return NONE
+
+
+@jit
+def after(node):
+    """Return the node that follows `node` and all below it, or `NONE`."""
+    # Right children have even numbers.
+    while node > 0 and node % 2 == 0:
+        node = (node - 1) // 2
+    return node + 1 if node > 0 else NONE
+
+
+@jit
+def faces_at(space, node):
+    """Return where the faces of a leaf start and stop in ``space.order``."""
+    inner = len(space.box) // 2
+    faces, leaf = len(space.order), node - inner
+    return _start(leaf, faces, inner + 1), _start(leaf + 1, faces, inner + 1)
+
+
+@jit
+def face_at(mesh, f):
+    """Return the face `f` as it is now."""
+    return face_of(
+        mesh.vertices, mesh.origin[3 * f], mesh.origin[3 * f + 1], mesh.origin[3 * f + 2]
+    )
+
+
+@jit
+def box_of(face):
+    """Return the box of a face."""
+    return box_around(face.a, face.b, face.c, face.c)
+
+
+@jit
+def _are_refused(one, f, other, g, area_scale):
+    """Tell whether the faces `one` and `other`, with the numbers f and g, count as cut."""
+    if f > g:
+        one, other = other, one
+    common = match(one, other)
+    return count_as_cut(one, other, common, area_scale) or cut_exactly(one, other, common)
+
+
+@jit
+def _new_faces(mesh, h):
+    """Return the two faces that the flip of `h` makes, each with its corners in their places."""
+    t = mesh.twin[h]
+    i, j, k, l = mesh.origin[h], mesh.origin[t], apex(mesh, h), apex(mesh, t)
+    # In its face, h goes from l to k afterwards, and t back.
+    one, other = face_of(mesh.vertices, l, k, i), face_of(mesh.vertices, k, l, j)
+    return from_corner(one, (3 - h % 3) % 3), from_corner(other, (3 - t % 3) % 3)
+
+
+@jit
+def blocker(mesh, space, h):
+    """Return a face that the flip of `h` would make a new face cut.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    space : Space
+        Active, and up to date with the mesh.
+    h : int
+        Half-edge that `can_flip` allows.
+
+    Returns
+    -------
+    int
+        `NONE` if there is none: the flip may be made. The face of `h` if the two new faces would
+        cut each other. As long as this face and the two at `h` stay, the answer stays.
+    """
+    t = mesh.twin[h]
+    f, g = np.int64(h // 3), np.int64(t // 3)
+    one, other = _new_faces(mesh, h)
+    if _are_refused(one, f, other, g, space.area_scale):
+        return f
+    box, other_box = box_of(one), box_of(other)
+    i, j, k, l = diamond(mesh, h)
+    around = box_around(i, j, k, l)
+    node = next_leaf(space, 0, around)
+    while node != NONE:
+        start, stop = faces_at(space, node)
+        for place in range(start, stop):
+            e = np.int64(space.order[place])
+            if e in (f, g):
+                continue
+            near = face_at(mesh, e)
+            near_box = box_of(near)
+            if boxes_meet(near_box, box) and _are_refused(one, f, near, e, space.area_scale):
+                return e
+            if boxes_meet(near_box, other_box) and _are_refused(
+                other, g, near, e, space.area_scale
+            ):
+                return e
+        node = next_leaf(space, after(node), around)
+    return NONE
+
+
+@jit
+def cuts(mesh, space, h):
+    """Tell whether the flip of `h` is refused, as `blocker` does; never if nothing is active."""
+    return space.active and blocker(mesh, space, h) != NONE
+
+
+@jit
+def mark_cuts(mesh, space, marked, start, stop):
+    """Mark, in place, faces that cut others, by the exact tests alone.
+
+    Looks at the pairs of a face from `start` up to `stop` and a face of a higher number.
+    """
+    for f in range(start, stop):
+        one = face_at(mesh, f)
+        box = box_of(one)
+        node = next_leaf(space, 0, box)
+        while node != NONE:
+            first, last = faces_at(space, node)
+            for place in range(first, last):
+                e = np.int64(space.order[place])
+                if e <= f or (marked[e] and marked[f]):
+                    continue
+                near = face_at(mesh, e)
+                if boxes_meet(box_of(near), box) and cut_exactly(one, near, match(one, near)):
+                    marked[e] = marked[f] = True
+            node = next_leaf(space, after(node), box)

@@ -1,0 +1,204 @@
+"""Do two faces of a mesh cut each other? Exact, also for faces without area.
+
+Faces cut each other if they share a point that their common vertices do not account for:
+
+    no common vertex    any point at all; to touch is to cut
+    one                 any point besides that vertex
+    two                 any point besides their edge: one is folded back onto the other
+    three               always
+
+Vertices are common by number: coincident ones are two. What everything comes down to is whether a
+closed segment meets a closed triangle, either of which may have shrunk to less.
+
+**Shadows.** Points of one plane are compared by their shadows along the three axes. Along at least
+one of them the shadow is faithful; along the others it can only make things meet that do not, and
+make turns vanish. So segments of one plane meet where all their shadows do, and a turn counts where
+any shadow shows it.
+"""
+
+from ..mesh.jit import jit
+from .predicates import orient3d, turn
+
+AXES = 3
+
+
+@jit
+def _coordinate(a, axis):
+    if axis == 0:
+        return a.x
+    return a.y if axis == 1 else a.z
+
+
+@jit
+def _is_same(a, b):
+    return a.x == b.x and a.y == b.y and a.z == b.z
+
+
+@jit
+def _is_in_line(a, b, c):
+    return turn(a, b, c, 0) == 0 and turn(a, b, c, 1) == 0 and turn(a, b, c, 2) == 0
+
+
+@jit
+def _is_in_box(p, a, b):
+    """Tell whether `p` is in the box around `a` and `b`."""
+    return (
+        min(a.x, b.x) <= p.x <= max(a.x, b.x)
+        and min(a.y, b.y) <= p.y <= max(a.y, b.y)
+        and min(a.z, b.z) <= p.z <= max(a.z, b.z)
+    )
+
+
+@jit
+def _is_between(p, a, b):
+    """Tell whether `p` is on the closed segment from `a` to `b`."""
+    return _is_in_box(p, a, b) and _is_in_line(p, a, b)
+
+
+@jit
+def _spans_overlap(p, q, a, b, axis):
+    p, q, a, b = (
+        _coordinate(p, axis),
+        _coordinate(q, axis),
+        _coordinate(a, axis),
+        _coordinate(b, axis),
+    )
+    return max(p, q) >= min(a, b) and max(a, b) >= min(p, q)
+
+
+@jit
+def _shadows_meet(p, q, a, b, axis):
+    """Tell whether the shadows of two segments along `axis` share a point."""
+    if not (
+        _spans_overlap(p, q, a, b, (axis + 1) % AXES)
+        and _spans_overlap(p, q, a, b, (axis + 2) % AXES)
+    ):
+        return False
+    # With overlapping boxes also right where all four turns are 0.
+    return (
+        turn(p, q, a, axis) * turn(p, q, b, axis) <= 0
+        and turn(a, b, p, axis) * turn(a, b, q, axis) <= 0
+    )
+
+
+@jit
+def segments_meet(p, q, a, b):
+    """Tell whether the closed segments p-q and a-b share a point."""
+    for axis in range(AXES):
+        if not _shadows_meet(p, q, a, b, axis):
+            return False
+    return orient3d(p, q, a, b) == 0
+
+
+@jit
+def _is_inside(p, a, b, c):
+    """Tell whether `p`, in a plane with the triangle, is in its interior."""
+    for axis in range(AXES):
+        first = turn(a, b, p, axis)
+        if first != 0 and turn(b, c, p, axis) == first and turn(c, a, p, axis) == first:
+            return True
+    return False
+
+
+@jit
+def segment_meets(p, q, a, b, c):
+    """Tell whether the closed segment p-q and the closed triangle (a, b, c) share a point."""
+    at_p, at_q = orient3d(a, b, c, p), orient3d(a, b, c, q)
+    if at_p * at_q > 0:
+        return False
+    if at_p == 0 and at_q == 0:
+        flat = _is_inside(p, a, b, c)
+        return flat or segments_meet(p, q, a, b) or _meets_two(p, q, b, c, a)
+    # The line goes through the plane at one point: does it see the triangle turn one way?
+    first, second, third = orient3d(p, q, a, b), orient3d(p, q, b, c), orient3d(p, q, c, a)
+    return min(first, second, third) >= 0 or max(first, second, third) <= 0
+
+
+@jit
+def _meets_two(p, q, b, c, a):
+    return segments_meet(p, q, b, c) or segments_meet(p, q, c, a)
+
+
+@jit
+def _is_beside(a, b, c, p, q, r):
+    """Tell whether p, q, r are strictly on one side of the plane of (a, b, c)."""
+    first = orient3d(a, b, c, p)
+    return first != 0 and orient3d(a, b, c, q) == first and orient3d(a, b, c, r) == first
+
+
+@jit
+def triangles_meet(a, b, c, p, q, r):
+    """Tell whether two closed triangles share a point.
+
+    If they do, a side of one of them meets the other.
+    """
+    if _is_beside(a, b, c, p, q, r) or _is_beside(p, q, r, a, b, c):
+        return False
+    return (
+        segment_meets(p, q, a, b, c)
+        or segment_meets(q, r, a, b, c)
+        or segment_meets(r, p, a, b, c)
+        or segment_meets(a, b, p, q, r)
+        or segment_meets(b, c, p, q, r)
+        or segment_meets(c, a, p, q, r)
+    )
+
+
+@jit
+def _meet_besides(s, a, b, c, d):
+    """Do what `meet_besides` does for sides a-b and c-d that `s` is not on.
+
+    Follow a common segment from s until it leaves one of the two: there, a side meets the other.
+    """
+    # With both ends strictly on one side of the other's plane, s is all that there is.
+    at_a, at_b = orient3d(s, c, d, a), orient3d(s, c, d, b)
+    if at_a * at_b > 0:
+        return False
+    return segment_meets(a, b, s, c, d) or segment_meets(c, d, s, a, b)
+
+
+@jit
+def meet_besides(s, a, b, c, d):
+    """Tell whether the triangles (s, a, b) and (s, c, d) share a point besides `s`."""
+    # A triangle with s on its far side is two segments from s.
+    one_is_flat, other_is_flat = _is_between(s, a, b), _is_between(s, c, d)
+    for first in range(2 if one_is_flat else 1):
+        for second in range(2 if other_is_flat else 1):
+            one, two, three, four = a, b, c, d
+            if one_is_flat:
+                one = two = a if first == 0 else b
+            if other_is_flat:
+                three = four = c if second == 0 else d
+            if _is_same(one, two) and _is_same(one, s):
+                continue
+            if _is_same(three, four) and _is_same(three, s):
+                continue
+            if _meet_besides(s, one, two, three, four):
+                return True
+    return False
+
+
+@jit
+def _are_ahead(s, t, a, b):
+    """Tell whether `a` and `b`, on the line of `s` and `t`, are both beyond `t`."""
+    for axis in range(AXES):
+        x, y = _coordinate(s, axis), _coordinate(t, axis)
+        one, other = _coordinate(a, axis), _coordinate(b, axis)
+        if (x < y and one > y and other > y) or (x > y and one < y and other < y):
+            return True
+    return False
+
+
+@jit
+def meet_beyond(s, t, a, b):
+    """Tell whether the triangles (s, t, a) and (s, t, b) share a point off the segment s-t."""
+    if orient3d(s, t, a, b) != 0:
+        return False
+    for axis in range(AXES):
+        if turn(s, t, a, axis) * turn(s, t, b, axis) > 0:
+            return True
+    if _is_same(s, t):
+        return meet_besides(s, a, a, b, b)
+    if _is_in_line(s, t, a) and _is_in_line(s, t, b):
+        return _are_ahead(s, t, a, b) or _are_ahead(t, s, a, b)
+    return False

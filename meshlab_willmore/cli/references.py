@@ -57,10 +57,10 @@ def _in_a_word(text: str) -> Sphere | Torus | None:
     """The sphere or torus; nothing if it must be a file."""
     from ..compare.reference import Sphere, Torus
 
-    name, _, sizes = text.partition(":")
-    if name not in ("sphere", "torus") or (name == "torus" and not sizes):
+    name, colon, sizes = text.partition(":")
+    if text != "sphere" and not (colon and name in ("sphere", "torus")):
         return None
-    radii = [_radius(text, size) for size in sizes.split(",") if sizes]
+    radii = [_radius(text, size) for size in sizes.split(",")] if colon else []
     if name == "sphere" and len(radii) <= 1:
         return Sphere(*radii)
     if name == "torus" and len(radii) == 2:

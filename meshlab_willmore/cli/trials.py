@@ -109,9 +109,10 @@ class _Stopwatch:
         self._timer.daemon = True
 
     def note(self, answer: object) -> None:
+        # A timer that is cancelled before its start never runs out.
         if answer == RUNNING:
             self._timer.start()
-        else:
+        elif answer != WARMING:
             self.stop()
 
     def stop(self) -> None:

@@ -11,6 +11,7 @@ import pytest
 
 from meshlab_willmore.cli import trials
 from meshlab_willmore.cli.trials import Outcome, Task
+from meshlab_willmore.compare import contenders
 from meshlab_willmore.compare.contenders import Contender, ours
 
 from .conftest import cube_file, listing
@@ -71,6 +72,33 @@ def test_a_crash_is_told_and_a_fault_has_its_reason(task):
 def test_a_process_that_does_not_begin_is_told(task, monkeypatch):
     monkeypatch.setattr(trials, "_PROGRAM", "import sys; sys.exit(3) # {path} {module}")
     assert trials.run(task, OWN, print).error == "the process ended with exit code 3"
+
+
+def test_the_filter_is_warmed_up_before_the_clock_starts(task, monkeypatch):
+    events = []
+    monkeypatch.setattr(contenders, "warm_up", lambda *given: events.append(given))
+    job = {"source": task.source, "reference": None, "filter": OWN.filter, "given": OWN.given}
+    trials._outcome(job, events.append)
+    warmed = (OWN.filter, OWN.given)
+    assert events == [trials.WARMING, warmed, trials.RUNNING, trials.MEASURING]
+
+
+def test_what_a_filter_prints_is_no_answer(task, monkeypatch):
+    noisy = (
+        "import os, sys; sys.path[:] = {path!r}; from {module} import main, Outcome\n"
+        "import {module} as trials\n"
+        "trials._outcome = lambda job, say: Outcome(float(os.write(1, b'noise\\n')))\n"
+        "main()"
+    )
+    monkeypatch.setattr(trials, "_PROGRAM", noisy)
+    assert trials.run(task, OWN, print) == Outcome(6.0)
+
+
+def test_files_that_a_dead_process_left_are_removed(task, monkeypatch):
+    # The fixture looks into the folder.
+    program = "import os, tempfile; tempfile.mkdtemp(); os.abort() # {path} {module}"
+    monkeypatch.setattr(trials, "_PROGRAM", program)
+    assert trials.run(task, OWN, print).error == "crashed (SIGABRT)"
 
 
 def test_modules_of_the_working_directory_hide_no_others(task):

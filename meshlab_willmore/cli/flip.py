@@ -37,11 +37,12 @@ class FlipCommand(SeveralValues):
         """The command's own parameters, and the filter's before its options."""
         own = super().get_params(ctx)
         arguments = [p for p in own if isinstance(p, click.Argument)]
-        return [*arguments, *_filter_options(), *(p for p in own if p not in arguments)]
+        return [*arguments, *filter_options(), *(p for p in own if p not in arguments)]
 
 
 @cache
-def _filter_options() -> tuple[click.Option, ...]:
+def filter_options() -> tuple[click.Option, ...]:
+    """An option for each parameter of the filter, in their order."""
     from ..meshset.filters import BY_NAME
 
     return tuple(_option(parameter) for parameter in BY_NAME[FILTER].parameters)
@@ -80,7 +81,7 @@ def command(source: str, target: Path, parts: tuple[str, ...], force: bool, **gi
     from .outputs import check_target
     from .saving import Wish, save
 
-    path = _only(expand([source]), source)
+    path = only(expand([source]), source, "flip takes one, run takes all")
     check_target(target, force)
     ms = loaded(path)
     returned = _flipped(ms, path, {k: v for k, v in given.items() if v is not None})
@@ -88,11 +89,18 @@ def command(source: str, target: Path, parts: tuple[str, ...], force: bool, **gi
     click.echo(f"{path} -> {target}: {told.flips(returned)}, {returned['seconds']:.1f} s")
 
 
-def _only(paths: list[Path], pattern: str) -> Path:
+def only(paths: list[Path], pattern: str, rule: str) -> Path:
+    """The one file that `pattern` stands for.
+
+    Raises
+    ------
+    WrongUse
+        If there are several, with `rule`, which says what the command takes.
+    """
     from .errors import wrong_use
 
     if len(paths) > 1:
-        raise wrong_use(f"{pattern} stands for {len(paths)} files; flip takes one, run takes all")
+        raise wrong_use(f"{pattern} stands for {len(paths)} files; {rule}")
     return paths[0]
 
 

@@ -33,13 +33,13 @@ def play(
     from ..meshset.native import muted
 
     # Whatever ends a step, the streams are there again before anyone says so.
-    with _bar(len(calls), label) as bar, ExitStack() as quiet:
+    with bar(len(calls), label) as shown, ExitStack() as quiet:
 
         def before(call: Call) -> None:
             log.begin(call, len(calls))
-            if bar is not None:
-                bar.current_item = call.known.name
-                bar.render_progress()
+            if shown is not None:
+                shown.current_item = call.known.name
+                shown.render_progress()
             sys.stdout.flush()
             if not call.known.ours:
                 # No output is begun before the last step has ended.
@@ -49,8 +49,8 @@ def play(
         def after(played: Played) -> None:
             quiet.close()
             log.end(played)
-            if bar is not None:
-                bar.update(1)
+            if shown is not None:
+                shown.update(1)
 
         return steps.play(ms, calls, source, before, after)
 
@@ -61,7 +61,7 @@ def tell_of_compiling() -> None:
         click.echo("flipping (the first run compiles before, which takes a while)", err=True)
 
 
-def _bar(length: int, label: str) -> AbstractContextManager[Any]:
+def bar(length: int, label: str) -> AbstractContextManager[Any]:
     """A progress bar; in a pipe nothing."""
     if not sys.stderr.isatty():
         return nullcontext()

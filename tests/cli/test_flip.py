@@ -63,12 +63,12 @@ def test_a_new_parameter_becomes_an_option(monkeypatch, cube):
 
     changed = filter_._replace(parameters=(*filter_.parameters, new), run=note)
     monkeypatch.setitem(filters.BY_NAME, flip_module.FILTER, changed)
-    flip_module._filter_options.cache_clear()
+    flip_module.filter_options.cache_clear()
     try:
         assert "Something new.  [default: 7]" in call("flip", "--help").stdout
         assert call("flip", cube, "out.ply", "--newword", "9").exit_code == 0
     finally:
-        flip_module._filter_options.cache_clear()
+        flip_module.filter_options.cache_clear()
     assert got["newword"] == 9
 
 

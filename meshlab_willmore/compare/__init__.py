@@ -1,0 +1,1 @@
+"""Energies, searches and MeshLab's own flips side by side on one mesh."""

@@ -1,0 +1,90 @@
+"""The figures of a mesh, as it is after a contender's flips."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import pymeshlab
+from numpy.typing import NDArray
+
+from ..measure import measures, triangle_shapes
+from .reference import Array, Reference, deviation
+
+WORST_SHARE = 0.01
+
+
+class Figures(NamedTuple):
+    """What a mesh is measured by; lengths in units of the coordinates.
+
+    Attributes
+    ----------
+    flips : int
+        Edges that the mesh at the start does not have.
+    willmore_energy, area, absolute_gaussian_curvature, absolute_mean_curvature : float
+        As `meshlab_willmore.measures` returns them.
+    worst_shape, mean_shape : float
+        4 sqrt(3) area / (sum of squared sides) of the triangles, 1 if equilateral: the mean, and
+        what the worst 1 % are below.
+    self_intersecting : int
+        Faces that cut another, as PyMeshLab counts them.
+    normal_error, distance : float or None
+        See `meshlab_willmore.compare.reference.Deviation`; None without a reference.
+    """
+
+    flips: int
+    willmore_energy: float
+    area: float
+    absolute_gaussian_curvature: float
+    absolute_mean_curvature: float
+    worst_shape: float
+    mean_shape: float
+    self_intersecting: int
+    normal_error: float | None
+    distance: float | None
+
+
+def figures(
+    ms: pymeshlab.MeshSet, before: NDArray[np.int32], reference: Reference | None
+) -> Figures:
+    """Measure the current mesh of `ms`; its selection of faces is changed.
+
+    Parameters
+    ----------
+    before : (m, 3) int32
+        The faces at the start.
+    """
+    vertices, faces = arrays(ms)
+    totals = measures(vertices, faces)
+    shapes = triangle_shapes(vertices, faces)
+    ms.compute_selection_by_self_intersections_per_face()
+    return Figures(
+        changed_edges(before, faces),
+        totals.willmore_energy,
+        totals.area,
+        totals.absolute_gaussian_curvature,
+        totals.absolute_mean_curvature,
+        float(np.quantile(shapes, WORST_SHARE)),
+        float(shapes.mean()),
+        ms.current_mesh().selected_face_number(),
+        *((None, None) if reference is None else deviation(vertices, faces, reference)),
+    )
+
+
+def arrays(ms: pymeshlab.MeshSet) -> tuple[Array, NDArray[np.int32]]:
+    """Vertices and faces of the current mesh, in its transformation."""
+    mesh = ms.current_mesh()
+    return mesh.transformed_vertex_matrix(), mesh.face_matrix()
+
+
+def changed_edges(before: NDArray[np.int32], after: NDArray[np.int32]) -> int:
+    """The number of vertex pairs that faces of `after` join and no face of `before`."""
+    return len(np.setdiff1d(_edges(after), _edges(before), assume_unique=True))
+
+
+def _edges(faces: NDArray[np.int32]) -> NDArray[np.int64]:
+    """A number for each edge, the same in all meshes."""
+    ends = np.concatenate([faces, np.roll(faces, 1, axis=1)], axis=1).astype(np.int64)
+    pairs = np.sort(ends.reshape(-1, 2, 3).transpose(0, 2, 1).reshape(-1, 2), axis=1)
+    unique: NDArray[np.int64] = np.unique((pairs[:, 0] << 32) | pairs[:, 1])
+    return unique

@@ -1,0 +1,263 @@
+"""`compare`: which rows there are, and what is told of them."""
+
+import json
+from pathlib import Path
+
+import pymeshlab
+import pytest
+
+import meshlab_willmore
+from meshlab_willmore.cli import compare, trials
+from meshlab_willmore.cli import flip as flip_module
+from meshlab_willmore.compare import contenders
+from meshlab_willmore.compare.figures import Figures
+from meshlab_willmore.compare.reference import Sphere, deviation
+from meshlab_willmore.measure import triangle_shapes
+from meshlab_willmore.meshset import filters
+from meshlab_willmore.meshset.parameters import Parameter
+from tests import reference
+
+from .conftest import call, cube_file, listing, loaded
+
+PLANAR = contenders.PEERS[1]
+SOME = Figures(12, 45.757, 6.22709, 12.5664, 1e-4, 0.08151, 0.67097, 3, None, None)
+NAMES = ["initial", "greedy, willmore", *(peer.name for peer in contenders.PEERS)]
+
+
+@pytest.fixture
+def cube():
+    return cube_file()
+
+
+@pytest.fixture
+def rows(monkeypatch):
+    """The rows that were run, of which each is done; a test can say what else becomes of one."""
+    ran = {}
+    becomes = {}
+
+    def run(task, contender, say):
+        say(trials.RUNNING)
+        ran[contender.name] = (task, contender)
+        done = trials.Outcome(0.125 if contender.filter else None, SOME._asdict())
+        return becomes.get(contender.name, done)
+
+    monkeypatch.setattr(trials, "run", run)
+    ran["becomes"] = becomes
+    return ran
+
+
+def shown(result):
+    """The lines of the table without its legend."""
+    return result.stdout.split("\nflips:")[0].splitlines()
+
+
+def test_figures_are_those_of_direct_calls(cube, monkeypatch):
+    monkeypatch.setattr(contenders, "PEERS", (PLANAR,))
+    result = call("compare", cube, "--energy", "willmore", "--reference", "sphere:1", "--json")
+    assert (result.exit_code, result.stderr) == (0, "")
+    initial, own, planar = json.loads(result.stdout)
+    vertices, before = loaded(cube)
+    assert_row(initial, vertices, before, before)
+    for row, filter_, given in (
+        (own, "meshing_edge_flip_by_willmore_optimization", {"energy": "willmore"}),
+        (planar, PLANAR.filter, PLANAR.given),
+    ):
+        ms = pymeshlab.MeshSet()
+        ms.load_new_mesh(str(cube))
+        ms.apply_filter(filter_, **given)
+        assert_row(row, vertices, before, ms.current_mesh().face_matrix())
+        assert 0.0 < row["seconds"] < 60.0
+    assert own["flips"] > 5
+    assert initial["seconds"] is None
+    assert (own["search"], own["energy"], own["name"]) == ("greedy", "willmore", NAMES[1])
+    assert (planar["search"], planar["name"], planar["given"]) == (None, PLANAR.name, PLANAR.given)
+    assert listing() == ["cube.ply"]
+
+
+def assert_row(row, vertices, before, faces):
+    totals = meshlab_willmore.measures(vertices, faces)._asdict()
+    del totals["gaussian_curvature"]
+    assert {key: row[key] for key in totals} == pytest.approx(totals, rel=1e-12)
+    shapes = triangle_shapes(vertices, faces)
+    assert row["mean_shape"] == pytest.approx(shapes.mean())
+    assert row["worst_shape"] == pytest.approx(sorted(shapes)[0], rel=0.5)
+    assert row["flips"] == len(reference.edge_set(faces) - reference.edge_set(before))
+    wanted = deviation(vertices, faces, Sphere(1.0))
+    assert (row["normal_error"], row["distance"]) == pytest.approx(wanted)
+    assert (row["self_intersecting"], row["timed_out"], row["error"]) == (0, False, None)
+
+
+def test_the_table_is_laid_out_exactly(cube, rows):
+    rows["becomes"][NAMES[1]] = trials.Outcome(timed_out=True)
+    rows["becomes"][NAMES[2]] = trials.Outcome(error="crashed (SIGSEGV)")
+    result = call("compare", cube, "--energy", "willmore", "--timeout", "1.5")
+    assert shown(result)[:6] == [
+        "                             flips        W     area      |K|        M  worst   mean"
+        "  cuts  seconds",
+        "-" * 99,
+        "initial                         12  45.7570  6.22709  12.5664  0.00010  0.082  0.671"
+        "     3",
+        "greedy, willmore" + " " * 78 + "> 1.5",
+        "MeshLab planar, 1 deg" + " " * 72 + "failed",
+        "MeshLab planar, 60 deg          12  45.7570  6.22709  12.5664  0.00010  0.082  0.671"
+        "     3     0.12",
+    ]
+    assert "seconds: the filter alone" in result.stdout
+    assert "normal:" not in result.stdout
+    assert result.stderr == "Error: MeshLab planar, 1 deg: crashed (SIGSEGV)\n"
+    assert result.exit_code == 1
+
+
+def test_a_filter_that_is_too_slow_is_no_failure(cube, rows):
+    rows["becomes"][NAMES[1]] = trials.Outcome(timed_out=True)
+    result = call("compare", cube, "--energy", "willmore", "--json")
+    assert (result.exit_code, result.stderr) == (0, "")
+    row = json.loads(result.stdout)[1]
+    assert row["timed_out"]
+    assert {row[key] for key in (*Figures._fields, "seconds", "error")} == {None}
+
+
+def test_a_reference_adds_two_columns(cube, rows):
+    figures = SOME._replace(normal_error=9.634, distance=0.0156789)._asdict()
+    rows["becomes"]["initial"] = trials.Outcome(None, figures)
+    nan = SOME._replace(normal_error=1.0, distance=float("nan"))._asdict()
+    rows["becomes"][NAMES[1]] = trials.Outcome(2.0, nan)
+    arguments = ("compare", cube, "--energy", "willmore", "--reference", "torus:3,1")
+    result = call(*arguments)
+    header, _, initial, own, *_ = shown(result)
+    assert header.split()[-4:] == ["cuts", "normal", "distance", "seconds"]
+    assert initial.split()[-3:] == ["3", "9.63", "0.0157"]
+    assert own.split()[-3:] == ["3", "1.00", "2.00"]
+    assert "normal: mean angle" in result.stdout
+    (task, _) = rows["initial"]
+    assert task == trials.Task("cube.ply", "torus:3,1", 60.0)
+    assert json.loads(call(*arguments, "--json").stdout)[1]["distance"] is None
+
+
+@pytest.mark.parametrize(
+    ("arguments", "wanted"),
+    [
+        ([], ["greedy, virtual willmore", "greedy, willmore"]),
+        (["--energy", "willmore"], ["greedy, willmore"]),
+        (["--search", "greedy", "--energy", "willmore"], ["greedy, willmore"]),
+        (
+            ["--energy", "willmore", "--energy", "virtual willmore"],
+            ["greedy, willmore", "greedy, virtual willmore"],
+        ),
+    ],
+)
+def test_rows_can_be_chosen(cube, rows, monkeypatch, arguments, wanted):
+    choices = {"search": ("greedy",), "energy": ("virtual willmore", "willmore")}
+    monkeypatch.setattr(contenders, "choices", choices.get)
+    lines = shown(call("compare", cube, "--no-peers", *arguments))[2:-1]
+    assert [line.split("  ")[0] for line in lines] == ["initial", *wanted]
+    assert call("compare", cube, *arguments).stdout.count("MeshLab ") == len(contenders.PEERS)
+
+
+def test_parameters_of_the_filter_are_options_for_our_rows(cube, rows):
+    call("compare", cube, "--featuredeg", "30", "--no-monotone", "--energy", "willmore")
+    given = rows[NAMES[1]][1].given
+    assert given == {
+        "search": "greedy",
+        "energy": "willmore",
+        "featuredeg": 30.0,
+        "monotone": False,
+        "selection": False,
+        "allowloss": True,
+    }
+    assert rows[PLANAR.name][1] == PLANAR
+
+
+def test_a_new_parameter_becomes_an_option(monkeypatch, cube, rows):
+    filter_ = filters.BY_NAME[contenders.FILTER]
+    new = Parameter("newword", int, 7, "New", "Something new.")
+    changed = filter_._replace(parameters=(*filter_.parameters, new))
+    monkeypatch.setitem(filters.BY_NAME, contenders.FILTER, changed)
+    flip_module.filter_options.cache_clear()
+    try:
+        assert "Something new.  [default: 7]" in call("compare", "--help").stdout
+        call("compare", cube, "--energy", "willmore", "--newword", "9")
+    finally:
+        flip_module.filter_options.cache_clear()
+    assert rows[NAMES[1]][1].given["newword"] == 9
+
+
+def test_help_leaves_out_what_is_the_same_for_all():
+    text = call("compare", "--help").stdout
+    assert "--selection" not in text
+    assert "--allowloss" not in text
+    assert "Only rows of this energy; can be given" in text
+    assert "meshlab-willmore compare torus.ply --reference torus:3,1" in text
+
+
+def test_debug_shows_the_traceback_of_a_row(cube, rows):
+    rows["becomes"][NAMES[1]] = trials.Outcome(error="no luck", trace="Traceback of bad luck\n")
+    arguments = ("compare", cube, "--energy", "willmore")
+    assert "Traceback" not in call(*arguments).stderr
+    assert "Traceback of bad luck\n\nError: " in call(*arguments, "--debug").stderr
+
+
+def test_a_bar_tells_what_a_row_does():
+    class Bar:
+        def render_progress(self):
+            self.rendered = self.current_item
+
+    bar = Bar()
+    compare._show(bar, "greedy, area", trials.RUNNING)
+    assert bar.rendered == "greedy, area: running"
+    compare._show(None, "greedy, area", trials.RUNNING)
+
+
+def test_a_mesh_that_cannot_be_measured_ends_it(cube, rows):
+    rows["becomes"]["initial"] = trials.Outcome(error="there is something wrong")
+    result = call("compare", cube, "--json")
+    assert (result.exit_code, result.stdout) == (1, "")
+    assert result.stderr == "Error: cube.ply: there is something wrong\n"
+    assert set(rows) == {"becomes", "initial"}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        (["points.xyz"], "Error: points.xyz: the mesh has no faces, it is a point cloud\n"),
+        (["bad.ply"], "Error: cannot read bad.ply: Header not found\n"),
+        (
+            ["cube.ply", "--reference", "points.xyz"],
+            "Error: points.xyz can't be the reference: it is a point cloud, without faces\n",
+        ),
+    ],
+)
+def test_failures_are_one_line(cube, arguments, line):
+    Path("bad.ply").write_text("no mesh")
+    Path("points.xyz").write_text("0 0 0\n1 0 0\n0 1 0\n")
+    result = call("compare", *arguments)
+    assert (result.exit_code, result.stdout, result.stderr) == (1, "", line)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        ([], "Missing argument 'IN'."),
+        (["cub.ply"], "there is no file cub.ply; there is cube.ply"),
+        (["*.ply"], "*.ply stands for 2 files; compare takes one"),
+        (["cube.ply", "--energy", "x"], "Invalid value for '--energy': 'x' is not one"),
+        (["cube.ply", "--search", "x"], "Invalid value for '--search': 'x' is not 'greedy'."),
+        (["cube.ply", "--timeout", "0"], "Invalid value for '--timeout': 0.0 is not in the range"),
+        (["cube.ply", "--foldangle", "181"], "--foldangle must lie in 0"),
+        (["cube.ply", "--reference", "no.ply"], "--reference: there is no file no.ply"),
+        (["cube.ply", "--reference", "torus"], "--reference: there is no file torus"),
+        (["cube.ply", "--reference", "torus:3"], "--reference torus:3: it can be sphere, sphere:2"),
+        (["cube.ply", "--reference", "torus:3,1,1"], "--reference torus:3,1,1: it can be sphere,"),
+        (["cube.ply", "--reference", "sphere:1,2"], "--reference sphere:1,2: it can be sphere, "),
+        (["cube.ply", "--reference", "sphere:-1"], "--reference sphere:-1: '-1' is no radius; it"),
+        (["cube.ply", "--reference", "torus:3,x"], "--reference torus:3,x: 'x' is no radius; it "),
+        (["cube.ply", "--reference", "torus:nan,1"], "--reference torus:nan,1: 'nan' is no radius"),
+        (["cube.ply", "--reference", "torus:3,,1"], "--reference torus:3,,1: '' is no radius"),
+    ],
+)
+def test_wrong_use(cube, rows, arguments, line):
+    cube_file("other.ply")
+    result = call("compare", *arguments)
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert result.stderr.startswith(f"Error: {line}")
+    assert result.stderr.count("\n") == 1

@@ -1,0 +1,197 @@
+"""The processes of a comparison: they end in time, alone, and leave nothing."""
+
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import pytest
+
+from meshlab_willmore.cli import trials
+from meshlab_willmore.cli.trials import Outcome, Task
+from meshlab_willmore.compare import contenders
+from meshlab_willmore.compare.contenders import Contender, ours
+
+from .conftest import cube_file, listing
+
+PATIENCE = 60
+STEP = 0.05
+# Native, and for ever.
+ENDLESS = Contender("endless", "apply_coord_laplacian_smoothing", {"stepsmoothnum": 10**9})
+# PyMeshLab dies of it.
+DEADLY = Contender(
+    "deadly", "meshing_decimation_quadric_edge_collapse", {"targetfacenum": -5, "targetperc": 0.0}
+)
+FAULTY = Contender("faulty", "apply_coord_laplacian_smoothing", {"nonsense": 1})
+(OWN,) = ours(["greedy"], ["willmore"], {})
+
+
+@pytest.fixture
+def task():
+    return Task(str(cube_file()), None, 300.0)
+
+
+@pytest.fixture(autouse=True)
+def temporary(tmp_path_factory, monkeypatch):
+    """The folder for temporary files, of this process and of those that it starts."""
+    folder = tmp_path_factory.mktemp("temporary")
+    monkeypatch.setenv("TMPDIR", str(folder))
+    monkeypatch.setattr(tempfile, "tempdir", None)
+    yield folder
+    assert listing(folder) == []
+
+
+def test_a_row_goes_through_its_phases(task):
+    said = []
+    outcome = trials.run(task, OWN, said.append)
+    assert said == [trials.WARMING, trials.RUNNING, trials.MEASURING]
+    assert outcome.seconds > 0.0
+    assert outcome.figures["flips"] == 10
+
+
+def test_a_filter_that_is_too_slow_is_killed(task):
+    said = []
+    start = time.perf_counter()
+    outcome = trials.run(task._replace(timeout=0.5), ENDLESS, said.append)
+    assert outcome == Outcome(timed_out=True)
+    assert said[-1] == trials.RUNNING
+    assert time.perf_counter() - start < PATIENCE
+
+
+def test_a_crash_is_told_and_a_fault_has_its_reason(task):
+    assert trials.run(task, DEADLY, print).error.startswith("crashed (SIG")
+    outcome = trials.run(task, FAULTY, print)
+    assert "nonsense" in outcome.error
+    assert "\n" not in outcome.error
+    assert outcome.trace.startswith("Traceback")
+    assert (outcome.figures, outcome.timed_out) == (None, False)
+
+
+def test_a_process_that_does_not_begin_is_told(task, monkeypatch):
+    monkeypatch.setattr(trials, "_PROGRAM", "import sys; sys.exit(3) # {path} {module}")
+    assert trials.run(task, OWN, print).error == "the process ended with exit code 3"
+
+
+def test_the_filter_is_warmed_up_before_the_clock_starts(task, monkeypatch):
+    events = []
+    monkeypatch.setattr(contenders, "warm_up", lambda *given: events.append(given))
+    job = {"source": task.source, "reference": None, "filter": OWN.filter, "given": OWN.given}
+    trials._outcome(job, events.append)
+    warmed = (OWN.filter, OWN.given)
+    assert events == [trials.WARMING, warmed, trials.RUNNING, trials.MEASURING]
+
+
+def test_what_a_filter_prints_is_no_answer(task, monkeypatch):
+    noisy = (
+        "import os, sys; sys.path[:] = {path!r}; from {module} import main, Outcome\n"
+        "import {module} as trials\n"
+        "trials._outcome = lambda job, say: Outcome(float(os.write(1, b'noise\\n')))\n"
+        "main()"
+    )
+    monkeypatch.setattr(trials, "_PROGRAM", noisy)
+    assert trials.run(task, OWN, print) == Outcome(6.0)
+
+
+def test_files_that_a_dead_process_left_are_removed(task, monkeypatch):
+    # The fixture looks into the folder.
+    program = "import os, tempfile; tempfile.mkdtemp(); os.abort() # {path} {module}"
+    monkeypatch.setattr(trials, "_PROGRAM", program)
+    assert trials.run(task, OWN, print).error == "crashed (SIGABRT)"
+
+
+def test_modules_of_the_working_directory_hide_no_others(task):
+    Path("json.py").write_text("raise ImportError('a file of the user')")
+    Path("click.py").write_text("raise ImportError('a file of the user')")
+    initial = Contender("initial", "", {})
+    assert trials.run(task, initial, print).figures["area"] == pytest.approx(6.22709, abs=1e-5)
+
+
+def test_the_clock_runs_while_the_filter_does():
+    class Process:
+        killed = False
+
+        def kill(self):
+            self.killed = True
+
+    def killed_after(*words):
+        process = Process()
+        stopwatch = trials._Stopwatch(0.1, process)
+        for word in words:
+            stopwatch.note(word)
+        time.sleep(0.5)
+        assert process.killed == stopwatch.ran_out
+        return process.killed
+
+    assert not killed_after(trials.WARMING)
+    assert killed_after(trials.WARMING, trials.RUNNING)
+    assert not killed_after(trials.WARMING, trials.RUNNING, trials.MEASURING)
+    assert not killed_after(trials.WARMING, trials.RUNNING, {"error": "x"})
+
+
+# --- signals -----------------------------------------------------------------------------------
+
+# Writes down the process that it starts, and when the filter runs in it.
+SLOW = f"""
+import subprocess, sys
+from pathlib import Path
+from meshlab_willmore.cli import compare, main
+from meshlab_willmore.compare import contenders
+contenders.PEERS = (contenders.{ENDLESS},)
+contenders.ours = lambda *_: []
+class Noted(subprocess.Popen):
+    def __init__(self, *arguments, **given):
+        super().__init__(*arguments, **given)
+        Path("child").write_text(str(self.pid))
+subprocess.Popen = Noted
+def show(bar, name, word):
+    if (name, word) == ("endless", "running"):
+        Path("ready").touch()
+compare._show = show
+main(sys.argv[1:], prog_name="meshlab-willmore")
+"""
+
+
+def is_running(pid):
+    """Whether there is a process, and no zombie that nobody has asked for yet."""
+    done = subprocess.run(
+        ["ps", "-o", "stat=", "-p", str(pid)], capture_output=True, text=True, check=False
+    )
+    return done.stdout.strip()[:1] not in ("", "Z")
+
+
+def wait_for(condition):
+    end = time.monotonic() + PATIENCE
+    while not condition() and time.monotonic() < end:
+        time.sleep(STEP)
+    assert condition()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+@pytest.mark.parametrize(
+    ("number", "code", "said"),
+    [
+        (signal.SIGINT, 1, "\nAborted!\n"),
+        (signal.SIGTERM, 143, "Error: terminated by SIGTERM\n"),
+        (signal.SIGKILL, -9, ""),
+    ],
+)
+def test_no_process_outlives_the_command(task, temporary, number, code, said):
+    process = subprocess.Popen(
+        [sys.executable, "-c", SLOW, "compare", task.source],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    wait_for(Path("ready").exists)
+    child = int(Path("child").read_text())
+    assert is_running(child)
+    process.send_signal(number)
+    assert process.communicate(timeout=PATIENCE) == ("", said)
+    assert process.returncode == code
+    wait_for(lambda: not is_running(child))
+    if number == signal.SIGKILL:
+        # Nobody is left to remove the folder.
+        for folder in temporary.iterdir():
+            folder.rmdir()

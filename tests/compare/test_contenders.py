@@ -1,0 +1,66 @@
+"""Which rows a comparison has."""
+
+from itertools import product
+
+import pytest
+
+import meshlab_willmore
+from meshlab_willmore.compare import contenders
+from meshlab_willmore.meshset import filters
+from meshlab_willmore.meshset.catalogue import find
+
+
+def test_there_is_a_row_for_each_search_and_energy_of_the_filter():
+    by_name = {p.name: p for p in filters.BY_NAME[contenders.FILTER].parameters}
+    searches, energies = contenders.choices("search"), contenders.choices("energy")
+    assert (searches, energies) == (by_name["search"].choices, by_name["energy"].choices)
+    rows = contenders.ours(iter(searches), iter(energies), {"featuredeg": 30.0})
+    assert [(r.search, r.energy) for r in rows] == list(product(searches, energies))
+    assert len({r.name for r in (contenders.INITIAL, *rows, *contenders.PEERS)}) == len(rows) + 5
+    for row in rows:
+        assert row.given == {
+            "search": row.search,
+            "energy": row.energy,
+            "featuredeg": 30.0,
+            "selection": False,
+            "allowloss": True,
+        }
+
+
+def test_parameters_are_those_that_are_not_the_same_for_all():
+    names = {p.name for p in contenders.parameters()}
+    whole = {p.name for p in filters.BY_NAME[contenders.FILTER].parameters}
+    assert names == whole - {"selection", "allowloss"}
+
+
+@pytest.mark.parametrize("peer", contenders.PEERS, ids=lambda peer: peer.name)
+def test_peers_are_filters_of_meshlab_with_parameters_that_they_have(peer):
+    known = find(peer.filter)
+    assert not known.ours
+    for name, value in peer.given.items():
+        param = known.param(name)
+        assert param is not None
+        assert not param.choices or value in param.choices
+
+
+def test_warm_up_calls_our_filter_as_it_will_be_called_and_no_other(monkeypatch):
+    calls = []
+
+    def note(ms, values):
+        calls.append((ms.current_mesh().face_number(), values))
+        return {}, ""
+
+    ours = filters.BY_NAME[contenders.FILTER]
+    monkeypatch.setitem(filters.BY_NAME, contenders.FILTER, ours._replace(run=note))
+    meshlab_willmore.unregister()
+    try:
+        meshlab_willmore.register()
+        contenders.warm_up(contenders.FILTER, {"featuredeg": 12.0})
+    finally:
+        meshlab_willmore.unregister()
+        monkeypatch.undo()
+        meshlab_willmore.register()
+    contenders.warm_up(contenders.PLANAR, {"iterations": "nonsense"})
+    contenders.warm_up("", {})
+    ((faces, values),) = calls
+    assert (faces, values["featuredeg"]) == (24, 12.0)

@@ -18,6 +18,7 @@ from .mesh.validate import (
     check_limit,
     check_mask,
     check_mesh,
+    check_place,
     to_unit_scale,
 )
 from .search import entries, greedy, variable_depth
@@ -37,6 +38,25 @@ SEARCHES = {
         ),
     },
 }
+# The same for "virtual willmore", by where the virtual points are.
+AT = "at"
+PLACED_SEARCHES = {
+    "greedy": {
+        "midpoint": SEARCHES["greedy"]["virtual willmore"],
+        "closest": functools.partial(greedy.run, entries.greedy_virtual_closest),
+        AT: functools.partial(greedy.run, entries.greedy_virtual_at),
+    },
+    "variable depth": {
+        "midpoint": SEARCHES["variable depth"]["virtual willmore"],
+        "closest": functools.partial(
+            variable_depth.run, entries.depth_virtual_closest, entries.greedy_virtual_closest
+        ),
+        AT: functools.partial(
+            variable_depth.run, entries.depth_virtual_at, entries.greedy_virtual_at
+        ),
+    },
+}
+PLACES = ("midpoint", "closest")
 STOPPED = "maxflips reached"
 REASONS = {
     "greedy": {
@@ -111,6 +131,7 @@ def optimize_flips(
     search="greedy",
     depth=5,
     breadth=3,
+    virtualpoint="midpoint",
     monotone=True,
     foldangle=90.0,
     featuredeg=180.0,
@@ -145,6 +166,11 @@ def optimize_flips(
         How many ways each chain of "variable depth" tries at its second flip, 1 to 12; half as
         many at the third, and so on. 1 is the quickest; more, with more depth, gets out of nearly
         every local minimum.
+    virtualpoint : {"midpoint", "closest"} or float
+        Where on the two diagonals the virtual points are. "midpoint": as in the paper. "closest":
+        where the diagonals pass nearest each other, at least a tenth of each from its ends. A
+        number t in (0, 1): the mean of the costs at t and at 1 - t, so that 0.5 is the midpoint.
+        Only for the energy "virtual willmore".
     monotone : bool
         Make no flip that raises the Willmore energy, in the form that counts every interior edge:
         twice the sum of their intersection angles. (With a boundary, that is not the number
@@ -191,7 +217,10 @@ def optimize_flips(
     check_choice("search", search, SEARCHES)
     check_choice("energy", energy, SEARCHES[search])
     vertices, faces = check_mesh(vertices, faces)
+    place = check_place("virtualpoint", virtualpoint, PLACES)
     rules = _rules(monotone, foldangle, maxflips)
+    if not isinstance(place, str):
+        rules, place = rules._replace(virtualpoint=place), AT
     reach = variable_depth.Reach(
         check_count("depth", depth, MOST_DEPTH),
         check_count("breadth", breadth, variable_depth.RING),
@@ -205,7 +234,9 @@ def optimize_flips(
     mesh = build(to_unit_scale(vertices, faces)[0], faces)
     _apply_locks(mesh, locks)
     before = willmore_energy_of(mesh)
-    progress = SEARCHES[search][energy](mesh, rules, **options)
+    is_placed = energy == "virtual willmore"
+    run = PLACED_SEARCHES[search][place] if is_placed else SEARCHES[search][energy]
+    progress = run(mesh, rules, **options)
     return FlipResult(
         faces=faces_of(mesh),
         flips=progress.flips,

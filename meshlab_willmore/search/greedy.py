@@ -45,6 +45,7 @@ from ..mesh.halfedge import (
 from ..mesh.jit import generic, jit
 from .heap import NEVER, Queue, empty_queue, first, update
 from .pairs import Pairs, contains, insert, no_pairs, reserve
+from .scoring import gain_of
 
 WORKING, CONVERGED, STOPPED = range(3)
 # Work between two looks at the keyboard, counted in scored edges: some hundredths of a second.
@@ -71,6 +72,8 @@ class Rules(NamedTuple):
     rank_step : float
         Cost reductions are ranked in steps of this size (radians). Edges that are equal by symmetry
         then go by number, and not by rounding, which a rotation would change.
+    virtualpoint : float
+        Place of the virtual points in (0, 1), for the energies that ask for it.
     """
 
     fold: guards.FoldLimits
@@ -79,6 +82,7 @@ class Rules(NamedTuple):
     tolerance: float = 1e-7
     tie: float = 1e-12
     rank_step: float = 1e-9
+    virtualpoint: float = 0.5
 
 
 class Task(NamedTuple):
@@ -104,7 +108,7 @@ def rank(mesh, h, rules, cost_reduction):
     """Return the rank of `h` in the queue, or `NEVER` where it must not be flipped."""
     if not is_free(mesh, h):
         return NEVER
-    gain = cost_reduction(mesh, h)
+    gain = gain_of(cost_reduction, mesh, h, rules)
     if not gain > rules.tolerance:
         return NEVER
     if rules.monotone and willmore.cost_reduction(mesh, h) < -rules.tie:
@@ -198,7 +202,7 @@ def advance(task, progress, cost_reduction):
     progress : Progress
         Where to go on.
     cost_reduction : callable
-        Jitted function of a mesh and a half-edge: the energy.
+        The energy: a jitted function as `gain_of` takes it.
 
     Returns
     -------
@@ -227,7 +231,7 @@ def advance(task, progress, cost_reduction):
         if keep_away:
             insert(task.gone, mesh.origin[h], mesh.origin[mesh.twin[h]])
         flips += 1
-        gain += cost_reduction(mesh, h)
+        gain += gain_of(cost_reduction, mesh, h, task.rules)
         flip(mesh, h)
         _rescore_around(task, h, cost_reduction)
         _rescore_freed(task, h, cost_reduction)

@@ -16,7 +16,7 @@ from tests import meshes
 from tests.studies import models
 from tests.studies.both_points import greedy_both
 
-PLACES = ["midpoint", "closest", 0.4, 0.3, 0.2, 0.1]
+PLACES = ["midpoint", "closest", 0.4, 0.3, 0.2, 0.1, 0.01]
 HEAD = ["model", "virtual points", "flips", "W", "area", "M", "normal error"]
 
 
@@ -35,13 +35,15 @@ def row(name, place, vertices, faces, flips=""):
     ]
 
 
-def searched(**options):
-    """All models with all places under one search."""
-    for name, vertices, faces in models.all_models():
+def searched(surfaces, **options):
+    """Some models with all places under one search, and with the Willmore energy to compare."""
+    for name, vertices, faces in surfaces:
         yield row(name, "(initial)", vertices, faces)
         for place in PLACES:
             result = optimize_flips(vertices, faces, virtualpoint=place, **options)
             yield row(name, place, vertices, result.faces, result.flips)
+        result = optimize_flips(vertices, faces, energy="willmore", **options)
+        yield row(name, "none (energy W)", vertices, result.faces, result.flips)
 
 
 def both_at_once():
@@ -55,8 +57,10 @@ def both_at_once():
 
 
 def tables():
-    yield "Greedy, monotone", searched()
-    yield "Greedy, literal", searched(monotone=False)
+    yield "Greedy, monotone", searched(models.all_models())
+    yield "Greedy, literal", searched(models.all_models(), monotone=False)
+    chains = {"search": "variable depth", "depth": 3}
+    yield "Variable depth, depth 3", searched(models.tori(), **chains)
     yield "Two points at once, greedy, monotone", both_at_once()
 
 

@@ -21,6 +21,7 @@ from .mesh.validate import (
     check_limit,
     check_mask,
     check_mesh,
+    check_place,
     in_input_units,
     to_unit_scale,
 )
@@ -43,6 +44,14 @@ KERNELS = {
     "gaussian curvature": Kernels(entries.greedy_gaussian, entries.depth_gaussian),
     "delaunay": Kernels(entries.greedy_delaunay, entries.depth_delaunay),
 }
+# The same for "virtual willmore", by where the virtual points are.
+AT = "at"
+PLACED_KERNELS = {
+    "midpoint": KERNELS["virtual willmore"],
+    "closest": Kernels(entries.greedy_virtual_closest, entries.depth_virtual_closest),
+    AT: Kernels(entries.greedy_virtual_at, entries.depth_virtual_at),
+}
+PLACES = ("midpoint", "closest")
 SEARCHES = ("greedy", "variable depth")
 STOPPED = "maxflips reached"
 REASONS = {
@@ -124,6 +133,7 @@ def optimize_flips(
     search="greedy",
     depth=5,
     breadth=3,
+    virtualpoint="midpoint",
     monotone=True,
     foldangle=90.0,
     checkintersections=False,
@@ -167,6 +177,11 @@ def optimize_flips(
         How many ways each chain of "variable depth" tries at its second flip, 1 to 12; half as
         many at the third, and so on. 1 is the quickest; more, with more depth, gets out of nearly
         every local minimum.
+    virtualpoint : {"midpoint", "closest"} or float
+        Where on the two diagonals the virtual points are. "midpoint": as in the paper. "closest":
+        where the diagonals pass nearest each other, at least a tenth of each from its ends. A
+        number t in (0, 1): the mean of the costs at t and at 1 - t, so that 0.5 is the midpoint.
+        Only for the energy "virtual willmore".
     monotone : bool
         With "virtual willmore", make no flip that raises the Willmore energy, in the form that
         counts every interior edge: twice the sum of their intersection angles. (With a boundary,
@@ -219,7 +234,10 @@ def optimize_flips(
     check_choice("search", search, SEARCHES)
     check_choice("energy", energy, KERNELS)
     vertices, faces = check_mesh(vertices, faces)
+    place = check_place("virtualpoint", virtualpoint, PLACES)
     rules = _rules(monotone, foldangle, maxflips)
+    if not isinstance(place, str):
+        rules, place = rules._replace(virtualpoint=place), AT
     reach = variable_depth.Reach(
         check_count("depth", depth, MOST_DEPTH),
         check_count("breadth", breadth, variable_depth.RING),
@@ -234,7 +252,8 @@ def optimize_flips(
     mesh = build(scaled, faces)
     _apply_locks(mesh, locks)
     before = willmore_energy_of(mesh)
-    kind, kernels = KINDS[energy], KERNELS[energy]
+    kind = KINDS[energy]
+    kernels = PLACED_KERNELS[place] if energy == "virtual willmore" else KERNELS[energy]
     rules = _suited(rules, kind, mesh)
     space = spaces.space_of(mesh, exponent) if is_guarded else spaces.no_space()
     if search == "greedy":

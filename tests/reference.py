@@ -52,13 +52,13 @@ def flipped(faces, i, j):
     return [*kept, (k, i, l), (l, j, k)]
 
 
-def with_virtual_vertex(vertices, faces, i, j):
-    """The mesh with a vertex in the middle of i-j, joined to the four corners of the diamond."""
+def with_virtual_vertex(vertices, faces, i, j, t=0.5):
+    """The mesh with a vertex at the part t of i-j, joined to the four corners of the diamond."""
     (k,) = _apexes(faces, i, j)
     (l,) = _apexes(faces, j, i)
     v = len(vertices)
     kept = [face for face in map(tuple, faces) if not {i, j} <= set(face)]
-    added = np.vstack([vertices, (vertices[i] + vertices[j]) / 2])
+    added = np.vstack([vertices, vertices[i] + t * (vertices[j] - vertices[i])])
     return added, [*kept, (v, i, l), (v, l, j), (v, j, k), (v, k, i)]
 
 
@@ -67,13 +67,47 @@ def willmore_reduction(vertices, faces, i, j):
     return objective(vertices, faces) - objective(vertices, flipped(faces, i, j))
 
 
-def virtual_reduction(vertices, faces, i, j):
-    """The paper's cost reduction of the edge i-j, by brute-force subdivision."""
+def virtual_reduction(vertices, faces, i, j, a=0.5, b=0.5):
+    """The paper's cost reduction of the edge i-j, by brute-force subdivision.
+
+    The virtual vertices are at the part a of the way from i to j, and b of that from k to l.
+    """
     (k,) = _apexes(faces, i, j)
     (l,) = _apexes(faces, j, i)
-    before = objective(*with_virtual_vertex(vertices, faces, i, j))
-    after = objective(*with_virtual_vertex(vertices, flipped(faces, i, j), k, l))
+    before = objective(*with_virtual_vertex(vertices, faces, i, j, a))
+    after = objective(*with_virtual_vertex(vertices, flipped(faces, i, j), k, l, b))
     return before - after
+
+
+def virtual_reduction_at(vertices, faces, i, j, t):
+    """The mean over the four ways to count t from an end of each diagonal."""
+    places = [(a, b) for a in (t, 1 - t) for b in (t, 1 - t)]
+    return sum(virtual_reduction(vertices, faces, i, j, a, b) for a, b in places) / 4
+
+
+def virtual_reduction_closest(vertices, faces, i, j, margin):
+    """The cost reduction with the virtual vertices at the closest points of the diagonals."""
+    (k,) = _apexes(faces, i, j)
+    (l,) = _apexes(faces, j, i)
+    places = closest_places(*np.asarray(vertices, np.longdouble)[[i, j, k, l]], margin)
+    return virtual_reduction(vertices, faces, i, j, *places)
+
+
+def closest_places(i, j, k, l, margin):
+    """The parts of i-j and k-l where these are closest, from margin to 1 - margin.
+
+    If not inside both, one is at an end, and the other as near as it gets: the best of all these.
+    """
+    u, w, r = j - i, l - k, k - i
+    uu, uw, ww, ru, rw = u @ u, u @ w, w @ w, r @ u, r @ w
+    ends = margin, 1 - margin
+    tried = [(a, np.clip((a * uw - rw) / ww, *ends)) for a in ends]
+    tried += [(np.clip((b * uw + ru) / uu, *ends), b) for b in ends]
+    crossing = uu * ww - uw * uw
+    if crossing != 0:
+        inside = (ru * ww - rw * uw) / crossing, (ru * uw - rw * uu) / crossing
+        tried += [inside] if margin <= min(inside) and max(inside) <= 1 - margin else []
+    return min(tried, key=lambda places: np.sum((r + places[1] * w - places[0] * u) ** 2))
 
 
 def edge_set(faces):

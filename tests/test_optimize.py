@@ -39,6 +39,7 @@ MODULES = {
     "gaussian curvature": gaussian_curvature,
     "delaunay": delaunay,
 }
+HEAVY_DEPTH = pytest.param("variable depth", marks=HEAVY)
 BUMPY = meshes.bumpy_sphere(60)
 PATCH = meshes.patch(60)
 
@@ -77,6 +78,7 @@ def test_signature_is_the_promised_one():
         "search": "greedy",
         "depth": 5,
         "breadth": 3,
+        "virtualpoint": "midpoint",
         "monotone": True,
         "foldangle": 90.0,
         "featuredeg": 180.0,
@@ -97,6 +99,40 @@ def test_the_paper_s_cube():
     assert result.willmore_after == pytest.approx(29.9173, abs=5e-5)
     assert measures(vertices, result.faces).area == pytest.approx(6.02993, abs=5e-6)
     assert np.bincount(result.faces.ravel())[8:].tolist() == [4] * 6
+
+
+PLACES = ["midpoint", "closest", 0.1, 0.25, 0.4]
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_the_paper_s_cube_wherever_the_virtual_points_are(place):
+    vertices, faces = meshes.cube(push=0.05)
+    result = optimize_flips(vertices, faces, virtualpoint=place)
+    check(vertices, faces, result)
+    assert result.flips == 6
+    assert result.converged
+    assert np.bincount(result.faces.ravel())[8:].tolist() == [4] * 6
+
+
+@pytest.mark.parametrize("search", ["greedy", HEAVY_DEPTH])
+def test_the_virtual_points_reach_the_search(search):
+    vertices, faces = meshes.torus(200, None, 1)
+
+    def flip(place, energy="virtual willmore"):
+        return optimize_flips(
+            vertices, faces, energy=energy, search=search, depth=2, virtualpoint=place
+        )
+
+    results = {place: flip(place) for place in PLACES}
+    for result in results.values():
+        check(vertices, faces, result)
+        assert result.converged
+    assert len({result.faces.tobytes() for result in results.values()}) == len(PLACES)
+    np.testing.assert_array_equal(flip(0.5).faces, results["midpoint"].faces)
+    np.testing.assert_array_equal(flip(0.75).faces, results[0.25].faces)
+    np.testing.assert_array_equal(flip(np.float32(0.25)).faces, results[0.25].faces)
+    # An energy without virtual points has nothing to place.
+    np.testing.assert_array_equal(flip("closest", "willmore").faces, flip(0.1, "willmore").faces)
 
 
 def test_the_paper_s_cube_with_deeper_dents():
@@ -555,6 +591,18 @@ def test_non_manifold_edges_stay():
         ({"breadth": 13}, ValueError, "breadth must lie in 1 .. 12, not 13"),
         ({"breadth": True}, TypeError, "breadth must be an integer, not bool"),
         ({"search": ["greedy"]}, ValueError, "unknown search"),
+        (
+            {"virtualpoint": "center"},
+            ValueError,
+            "unknown virtualpoint 'center'; choose 'midpoint', 'closest' or a number between 0 and",
+        ),
+        ({"virtualpoint": True}, TypeError, "virtualpoint must be 'midpoint'.*not bool"),
+        ({"virtualpoint": None}, TypeError, "virtualpoint must be 'midpoint'.*not NoneType"),
+        ({"virtualpoint": [0.5]}, TypeError, "virtualpoint .* not list"),
+        ({"virtualpoint": 0.0}, ValueError, "number between 0 and 1, not 0.0"),
+        ({"virtualpoint": 1}, ValueError, "number between 0 and 1, not 1.0"),
+        ({"virtualpoint": float("nan")}, ValueError, "number between 0 and 1, not nan"),
+        ({"virtualpoint": 2, "energy": "willmore"}, ValueError, "number between 0 and 1, not 2.0"),
         ({"monotone": 1}, TypeError, "monotone"),
         ({"foldangle": -1.0}, ValueError, "foldangle"),
         ({"featuredeg": 181}, ValueError, "featuredeg"),

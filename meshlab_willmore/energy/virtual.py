@@ -5,6 +5,8 @@ the diagonal; v' in the middle of k-l does the same for the flipped mesh. The co
 edge is the Willmore energy with v minus the one with v'. They differ in the angles at the four
 spokes of v and at the four sides of the quad. Source: "Mesh optimisation based on Willmore
 energy", section 3.
+
+For other places on the diagonals see `virtual_closest` and `virtual_at`.
 """
 
 import math
@@ -46,8 +48,24 @@ def _add_spokes(angles, quad, spokes):
 
 
 @jit
-def _virtual_angles(mesh, h, quad, spokes):
-    """Return the sum of the angles at the spokes and at the sides of the quad."""
+def virtual_angles(mesh, h, quad, spokes):
+    """Return the sum of the angles that the place of a virtual vertex decides, in radians.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    h : int
+        Half-edge with a twin.
+    quad : Diamond
+        The points around it.
+    spokes : Diamond
+        The vectors to these from the virtual vertex, wherever on i-j or on k-l it stands.
+
+    Returns
+    -------
+    float
+        Over the four spokes and the four sides of the quad; NaN where an angle is undefined.
+    """
     sides = side_angles(mesh, h, quad, _views(spokes))
     return radians(_add_spokes(sides, quad, spokes))
 
@@ -68,8 +86,8 @@ def cost_reduction(mesh, h):
         In radians; positive where the flip helps, minus infinity where an angle is undefined.
     """
     quad = diamond(mesh, h)
-    before = _virtual_angles(mesh, h, quad, _spokes(quad, quad.i, quad.j))
-    after = _virtual_angles(mesh, h, quad, _spokes(quad, quad.k, quad.l))
+    before = virtual_angles(mesh, h, quad, _spokes(quad, quad.i, quad.j))
+    after = virtual_angles(mesh, h, quad, _spokes(quad, quad.k, quad.l))
     gain = 2.0 * (before - after)
     return gain if math.isfinite(gain) else -math.inf
 

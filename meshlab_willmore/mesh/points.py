@@ -38,6 +38,17 @@ def from_middle(a, b, p):
 
 
 @jit
+def from_between(a, b, t, p):
+    """Return the vector to `p` from the point ``a + t (b - a)``, with t in [0, 1].
+
+    As in `from_middle`, with the same bits for t = 0.5, that point itself is not formed.
+    """
+    a_p, b_p = subtract(p, a), subtract(p, b)
+    s = 1.0 - t
+    return Point(s * a_p.x + t * b_p.x, s * a_p.y + t * b_p.y, s * a_p.z + t * b_p.z)
+
+
+@jit
 def dot(a, b):
     """Return the scalar product."""
     return a.x * b.x + a.y * b.y + a.z * b.z

@@ -132,6 +132,21 @@ def check_degrees(name, value):
     return degrees
 
 
+def check_place(name, value, choices):
+    """Return one of the names `choices` as it is, or a number between 0 and 1 as float."""
+    if isinstance(value, str) and value in choices:
+        return value
+    allowed = f"{', '.join(repr(choice) for choice in choices)} or a number between 0 and 1"
+    if isinstance(value, str):
+        raise ValueError(f"unknown {name} {value!r}; choose {allowed}")
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, numbers.Real):
+        raise TypeError(f"{name} must be {allowed}, not {type(value).__name__}")
+    place = float(value)
+    if not 0.0 < place < 1.0:
+        raise ValueError(f"{name} must be {allowed}, not {place}")
+    return place
+
+
 def check_flag(name, value):
     """Return a switch as bool; anything but True and False is a TypeError."""
     if not isinstance(value, (bool, np.bool_)):

@@ -10,6 +10,8 @@ from ..energy import (
     mean_curvature,
     uniform,
     virtual,
+    virtual_at,
+    virtual_closest,
     willmore,
 )
 from ..mesh.jit import jit
@@ -22,6 +24,18 @@ from . import greedy, variable_depth
 def greedy_virtual(task, progress):
     """Go on with greedy flips that lower the virtual Willmore energy."""
     return greedy.advance(task, progress, virtual.cost_reduction)
+
+
+@jit
+def greedy_virtual_closest(task, progress):
+    """Go on with `greedy.advance`, virtual points where the diagonals pass nearest each other."""
+    return greedy.advance(task, progress, virtual_closest.cost_reduction)
+
+
+@jit
+def greedy_virtual_at(task, progress):
+    """Go on with `greedy.advance`, virtual points at the place that the rules give."""
+    return greedy.advance(task, progress, virtual_at.cost_reduction)
 
 
 @jit
@@ -67,6 +81,22 @@ def greedy_delaunay(task, progress):
 def depth_virtual(task, progress):
     """Go on with chains that are ranked by the virtual, judged by the true Willmore energy."""
     return variable_depth.advance(task, progress, virtual.cost_reduction, willmore.cost_reduction)
+
+
+@jit
+def depth_virtual_closest(task, progress):
+    """Go on as `depth_virtual` does, virtual points where the diagonals pass nearest each other."""
+    return variable_depth.advance(
+        task, progress, virtual_closest.cost_reduction, willmore.cost_reduction
+    )
+
+
+@jit
+def depth_virtual_at(task, progress):
+    """Go on as `depth_virtual` does, virtual points at the place that the rules give."""
+    return variable_depth.advance(
+        task, progress, virtual_at.cost_reduction, willmore.cost_reduction
+    )
 
 
 @jit

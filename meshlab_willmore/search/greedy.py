@@ -51,6 +51,7 @@ from ..mesh.halfedge import (
 from ..mesh.jit import generic, jit
 from .heap import NEVER, Queue, empty_queue, first, update
 from .pairs import Pairs, contains, insert, no_pairs, reserve
+from .scoring import gain_of
 from .waiting import Waiting, leave, nothing_waits, wait
 
 WORKING, CONVERGED, STOPPED = range(3)
@@ -80,6 +81,8 @@ class Rules(NamedTuple):
         equal by symmetry then go by number, and not by rounding, which a rotation would change.
     is_potential, is_wide : bool
         As in `meshlab_willmore.energy.kinds.Kind`.
+    virtualpoint : float
+        Place of the virtual points in (0, 1), for the energies that ask for it.
     """
 
     fold: guards.FoldLimits
@@ -90,6 +93,7 @@ class Rules(NamedTuple):
     rank_step: float = 1e-9
     is_potential: bool = False
     is_wide: bool = False
+    virtualpoint: float = 0.5
 
 
 class Task(NamedTuple):
@@ -117,7 +121,7 @@ def rank(mesh, h, rules, cost_reduction):
     """Return the rank of `h` in the queue, or `NEVER` where it must not be flipped."""
     if not is_free(mesh, h):
         return NEVER
-    gain = cost_reduction(mesh, h)
+    gain = gain_of(cost_reduction, mesh, h, rules)
     if not gain > rules.tolerance:
         return NEVER
     if rules.monotone and willmore.cost_reduction(mesh, h) < -rules.tie:
@@ -267,7 +271,7 @@ def advance(task, progress, cost_reduction):
     progress : Progress
         Where to go on.
     cost_reduction : callable
-        Jitted function of a mesh and a half-edge: the energy.
+        The energy: a jitted function as `gain_of` takes it.
 
     Returns
     -------
@@ -300,7 +304,7 @@ def advance(task, progress, cost_reduction):
         if keep_away:
             insert(task.gone, mesh.origin[h], mesh.origin[mesh.twin[h]])
         flips += 1
-        gain += cost_reduction(mesh, h)
+        gain += gain_of(cost_reduction, mesh, h, task.rules)
         _flip(task, h, cost_reduction)
     return scored, flips, gain, WORKING
 

@@ -52,6 +52,7 @@ from ..mesh.halfedge import (
 from ..mesh.jit import generic, jit
 from . import greedy
 from .greedy import CONVERGED, SLICE, STOPPED, WORKING, Progress, Rules
+from .scoring import gain_of
 
 RING = 12
 CORNERS = 6
@@ -295,7 +296,7 @@ def _find_candidates(task, count, s, ranking):
     for place in range(count):
         h = chain.ring[place]
         if is_free(mesh, h):
-            score = ranking(mesh, h)
+            score = gain_of(ranking, mesh, h, task.rules)
             if score > -np.inf:
                 _offer(task, s, h, score)
 
@@ -380,7 +381,7 @@ def _finish(task, count, s, best, ranking, judge):
         h = chain.ring[place]
         if not is_free(mesh, h):
             continue
-        score = ranking(mesh, h)
+        score = gain_of(ranking, mesh, h, rules)
         if not score > -np.inf:
             continue
         drop = score if judge is None else judge(mesh, h)
@@ -477,8 +478,9 @@ def advance(task, progress, ranking, judge):
     progress : Progress
         Where to go on.
     ranking, judge : callable
-        Jitted functions of a mesh and a half-edge, see above. A judge of None: `ranking` is also
-        the judge.
+        Jitted functions of a mesh and a half-edge, see above; `ranking` as
+        `meshlab_willmore.search.scoring.gain_of` takes it. A judge of None: `ranking` is also the
+        judge.
 
     Returns
     -------

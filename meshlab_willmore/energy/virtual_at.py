@@ -1,0 +1,60 @@
+"""The virtual Willmore energy with the virtual points at a given part t of the diagonals.
+
+As `meshlab_willmore.energy.virtual`, but v divides i-j, and v' divides k-l, as t to 1 - t. An edge
+has no direction, so which end t counts from must not matter: the cost is the mean over both
+readings. That holds for each diagonal by itself, so it does not depend either on which end of i-j
+goes with which end of k-l. At t = 0.5 it is the paper's cost, and t and 1 - t are the same.
+
+Where to put the virtual points is left open in "Mesh optimisation based on Willmore energy",
+section 5.
+"""
+
+import math
+
+from ..mesh.halfedge import Diamond, diamond
+from ..mesh.jit import jit
+from ..mesh.points import from_between
+from .virtual import virtual_angles
+
+
+@jit
+def spokes_at(quad, a, b, t):
+    """Return the vectors to the corners of the quad from the point ``a + t (b - a)``."""
+    return Diamond(
+        from_between(a, b, t, quad.i),
+        from_between(a, b, t, quad.j),
+        from_between(a, b, t, quad.k),
+        from_between(a, b, t, quad.l),
+    )
+
+
+@jit
+def _angles_from_both_ends(mesh, h, quad, a, b, t):
+    """Return the sum of the angles for the two points of a-b that divide it as t to 1 - t."""
+    # Ends exchanged, and not 1 - t, which is rounded where t is small.
+    from_a = virtual_angles(mesh, h, quad, spokes_at(quad, a, b, t))
+    return from_a + virtual_angles(mesh, h, quad, spokes_at(quad, b, a, t))
+
+
+@jit
+def cost_reduction(mesh, h, t):
+    """Return by how much the virtual Willmore energy drops when `h` is flipped.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    h : int
+        Half-edge with a twin.
+    t : float
+        Place of the virtual points, in (0, 1).
+
+    Returns
+    -------
+    float
+        In radians; positive where the flip helps, minus infinity where an angle is undefined.
+    """
+    quad = diamond(mesh, h)
+    before = _angles_from_both_ends(mesh, h, quad, quad.i, quad.j, t)
+    # Twice the sum of the angles, and half of the sum over both ends: the factors cancel.
+    gain = before - _angles_from_both_ends(mesh, h, quad, quad.k, quad.l, t)
+    return gain if math.isfinite(gain) else -math.inf

@@ -1,0 +1,73 @@
+"""Does it matter where the virtual points are? Prints the tables of docs/virtual_points.md.
+
+Run by hand, from the top of the repository (some minutes):
+
+    python -m tests.studies.virtual_points
+"""
+
+import time
+
+from meshlab_willmore import optimize_flips
+from meshlab_willmore.guards import fold_limits
+from meshlab_willmore.measure import measures
+from meshlab_willmore.mesh.build import build, faces_of
+from meshlab_willmore.search import greedy
+from tests import meshes
+from tests.studies import models
+from tests.studies.both_points import greedy_both
+
+PLACES = ["midpoint", "closest", 0.4, 0.3, 0.2, 0.1, 0.01]
+HEAD = ["model", "virtual points", "flips", "W", "area", "M", "normal error"]
+
+
+def row(name, place, vertices, faces, flips=""):
+    """One line of a table."""
+    totals = measures(vertices, faces)
+    is_torus = name.startswith("torus")
+    return [
+        name,
+        str(place),
+        str(flips),
+        f"{totals.willmore_energy:.1f}",
+        f"{totals.area:.6g}",
+        f"{totals.absolute_mean_curvature:.5g}",
+        f"{models.torus_normal_error(vertices, faces):.2f}" if is_torus else "",
+    ]
+
+
+def searched(surfaces, **options):
+    """Some models with all places under one search, and with the Willmore energy to compare."""
+    for name, vertices, faces in surfaces:
+        yield row(name, "(initial)", vertices, faces)
+        for place in PLACES:
+            result = optimize_flips(vertices, faces, virtualpoint=place, **options)
+            yield row(name, place, vertices, result.faces, result.flips)
+        result = optimize_flips(vertices, faces, energy="willmore", **options)
+        yield row(name, "none (energy W)", vertices, result.faces, result.flips)
+
+
+def both_at_once():
+    """Two points on each diagonal at the same time, under the monotone rule."""
+    for name, vertices, faces in models.tori():
+        for t in (0.4, 0.3, 0.2, 0.1):
+            mesh = build(vertices, faces)
+            rules = greedy.Rules(fold_limits(90.0), virtualpoint=t)
+            flips = greedy.run(greedy_both, mesh, rules).flips
+            yield row(name, f"{t} and {1.0 - t:.1f}", vertices, faces_of(mesh), flips)
+
+
+def tables():
+    yield "Greedy, monotone", searched(models.all_models())
+    yield "Greedy, literal", searched(models.all_models(), monotone=False)
+    chains = {"search": "variable depth", "depth": 3}
+    yield "Variable depth, depth 3", searched(models.tori(), **chains)
+    yield "Two points at once, greedy, monotone", both_at_once()
+
+
+if __name__ == "__main__":
+    optimize_flips(*meshes.cube())
+    for title, rows in tables():
+        start = time.perf_counter()
+        print(f"\n## {title}\n")
+        models.print_table(HEAD, rows)
+        print(f"\n{time.perf_counter() - start:.0f} s")

@@ -81,6 +81,7 @@ def test_signature_is_the_promised_one():
         "virtualpoint": "midpoint",
         "monotone": True,
         "foldangle": 90.0,
+        "checkintersections": False,
         "featuredeg": 180.0,
         "selected_faces": None,
         "locked_edges": None,

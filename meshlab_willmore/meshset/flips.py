@@ -7,13 +7,32 @@ from typing import Any
 
 import pymeshlab
 
-from ..mesh.validate import check_degrees
+from ..mesh.validate import check_count, check_degrees, check_place, check_seed
 from . import exchange, interrupts, sides
 from .filter import Filter, current_surface
 from .parameters import Parameter
 from .snapshot import take
 
 NO_LIMIT = -1
+# As in the core, which takes too long to import for those who only ask for the parameters.
+MOST_DEPTH = 100
+MOST_BREADTH = 12
+MOST_SWEEPS = 10**9
+
+
+# --- parameters --------------------------------------------------------------------------------
+
+ENERGIES = (
+    "virtual willmore",
+    "willmore",
+    "uniform virtual willmore",
+    "area",
+    "mean curvature",
+    "gaussian curvature",
+    "delaunay",
+)
+SEARCHES = ("greedy", "variable depth", "annealing", "thorough")
+PLACES = ("midpoint", "closest")
 
 
 def _has_selected_faces(ms: pymeshlab.MeshSet | None) -> bool:
@@ -24,6 +43,27 @@ def _check_maxflips(name: str, value: int) -> int:
     if value < NO_LIMIT:
         raise ValueError(f"{name} must be {NO_LIMIT} (no limit) or more, it is {value}")
     return value
+
+
+def _check_depth(name: str, value: int) -> int:
+    return check_count(name, value, MOST_DEPTH)
+
+
+def _check_breadth(name: str, value: int) -> int:
+    return check_count(name, value, MOST_BREADTH)
+
+
+def _check_sweeps(name: str, value: int) -> int:
+    return check_count(name, value, MOST_SWEEPS)
+
+
+def _check_place(name: str, text: str) -> str | float:
+    """The place of the virtual points: a name, or the number that the text is."""
+    try:
+        value: str | float = float(text)
+    except ValueError:
+        value = text
+    return check_place(name, value, PLACES)
 
 
 _PARAMETERS = (
@@ -37,28 +77,81 @@ _PARAMETERS = (
     Parameter(
         "energy",
         str,
-        "virtual willmore",
+        ENERGIES[0],
         "Energy",
-        "What a flip must lower. 'virtual willmore': the paper's cost, the Willmore energy with a "
-        "virtual point in the middle of the edge. 'willmore': the Willmore energy itself.",
-        ("virtual willmore", "willmore"),
+        "What the flips must lower. 'virtual willmore', the paper's cost: careful, fit for scans. "
+        "'willmore': the Willmore energy itself, which smooths creases of bad triangulations away. "
+        "'uniform virtual willmore': the same, with fewer slivers. 'area', 'delaunay' (the "
+        "cotangents of all angles): quick, for good triangles. 'mean curvature' (angle times "
+        "length): the straightest edges, but slivers. 'gaussian curvature' (angles missing to a "
+        "full turn): for comparison.",
+        ENERGIES,
     ),
     Parameter(
         "search",
         str,
-        "greedy",
+        SEARCHES[0],
         "Search",
-        "In which order edges are flipped. 'greedy': always the flip that lowers the energy most.",
-        ("greedy",),
+        "How it is minimised. 'greedy': always the flip that lowers the energy most; the quickest. "
+        "'variable depth': then chains of several flips that may go through a loss; much better "
+        "where the triangulation is bad. 'annealing': random flips that cool down; slow. "
+        "'thorough': chains from several starts, for a result that hardly depends on how the mesh "
+        "was triangulated.",
+        SEARCHES,
+    ),
+    Parameter(
+        "depth",
+        int,
+        5,
+        "Depth of chains",
+        "Most flips of a chain in the searches 'variable depth' and 'thorough'. 3 is quicker, "
+        "7 finds a little more.",
+        check=_check_depth,
+    ),
+    Parameter(
+        "breadth",
+        int,
+        3,
+        "Breadth of chains",
+        f"How many ways a chain tries at its second flip, 1 to {MOST_BREADTH}; half as many at the "
+        "third, and so on. 1 is the quickest.",
+        check=_check_breadth,
+    ),
+    Parameter(
+        "sweeps",
+        int,
+        200,
+        "Sweeps of the annealing",
+        "At how many temperatures the search 'annealing' tries as many flips as there are edges. "
+        "The time grows with it.",
+        check=_check_sweeps,
+    ),
+    Parameter(
+        "seed",
+        int,
+        0,
+        "Seed of the annealing",
+        "Of the random numbers of the search 'annealing'. The same seed gives the same mesh.",
+        check=check_seed,
+    ),
+    Parameter(
+        "virtualpoint",
+        str,
+        PLACES[0],
+        "Virtual points",
+        "Where the energy 'virtual willmore' puts its virtual points on an edge. 'midpoint': as in "
+        "the paper. 'closest': where the edge passes nearest the flipped one. Or a number between "
+        "0 and 1, the place from either end. It matters little; leave it.",
+        check=_check_place,
     ),
     Parameter(
         "monotone",
         bool,
         True,
         "Never raise the Willmore energy",
-        "Refuse flips that raise the Willmore energy itself, the sum of the circles' angles over "
-        "all edges. Without this rule the virtual energy can make a surface worse; off is for "
-        "research.",
+        "For the energy 'virtual willmore': refuse flips that raise the Willmore energy itself, "
+        "the sum of the circles' angles over all edges. Without this rule the virtual energy can "
+        "make a surface worse; off is for research.",
     ),
     Parameter(
         "foldangle",
@@ -68,6 +161,14 @@ _PARAMETERS = (
         "Refuse a flip if the faces at the new edge would be bent by more than this angle (0 is "
         "flat) and by more than at the old edge, or if it makes a sliver. 180 allows folds.",
         check=check_degrees,
+    ),
+    Parameter(
+        "checkintersections",
+        bool,
+        False,
+        "No new self-intersections",
+        "Refuse flips after which a face would cut another one. Takes longer; worth it where "
+        "parts of the surface nearly touch, or folds are allowed.",
     ),
     Parameter(
         "featuredeg",
@@ -97,12 +198,14 @@ _PARAMETERS = (
 )
 
 
+# --- the action --------------------------------------------------------------------------------
+
+
 def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any], str]:
     from ..optimize import optimize_flips
 
     start = time.perf_counter()
     current_surface(ms)
-    choices = {p.name: p.choices for p in _PARAMETERS}
     snapshot = take(ms)
     if snapshot.unsupported and not values["allowloss"]:
         raise pymeshlab.PyMeshLabException(
@@ -114,8 +217,14 @@ def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any]
         result = optimize_flips(
             snapshot.vertices,
             snapshot.faces,
-            energy=choices["energy"][values["energy"]],
-            search=choices["search"][values["search"]],
+            energy=ENERGIES[values["energy"]],
+            search=SEARCHES[values["search"]],
+            depth=values["depth"],
+            breadth=values["breadth"],
+            sweeps=values["sweeps"],
+            seed=values["seed"],
+            virtualpoint=_check_place("virtualpoint", values["virtualpoint"]),
+            checkintersections=values["checkintersections"],
             monotone=values["monotone"],
             foldangle=values["foldangle"],
             featuredeg=values["featuredeg"],
@@ -141,7 +250,7 @@ def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any]
 
 _RETURNS = (
     ("flips", "int", "Number of flips."),
-    ("gain", "float", "Sum of the energy reductions of the flips, in radians."),
+    ("gain", "float", "Sum of the energy reductions of the flips, in the unit of the energy."),
     ("willmore_before", "float", "Willmore energy before, over interior vertices, in radians."),
     ("willmore_after", "float", "Willmore energy after, over interior vertices, in radians."),
     ("converged", "bool", "Whether no allowed flip is left that helps."),

@@ -1,5 +1,6 @@
 """What the filters do to meshes good and bad."""
 
+import inspect
 import re
 
 import numpy as np
@@ -13,7 +14,9 @@ from meshlab_willmore import (
     vertex_willmore_energy,
     willmore_energy,
 )
-from meshlab_willmore.meshset import scalars
+from meshlab_willmore import optimize
+from meshlab_willmore.meshset import flips, scalars
+from meshlab_willmore.search import variable_depth
 from tests import meshes
 from tests.meshset.conftest import FLIP, SAMPLES, random_transform, set_of
 
@@ -44,6 +47,68 @@ def test_flips_are_those_of_the_core(energy, monotone):
         "mesh_id": 0,
     }
     assert {type(v) for v in returned.values()} == {int, float, bool}
+
+
+def test_choices_and_limits_are_those_of_the_core():
+    assert flips.ENERGIES == tuple(optimize.KERNELS)
+    assert flips.SEARCHES == optimize.SEARCHES
+    assert flips.PLACES == optimize.PLACES
+    assert flips.MOST_DEPTH == optimize.MOST_DEPTH
+    assert flips.MOST_BREADTH == variable_depth.RING
+    assert flips.MOST_SWEEPS == optimize.MOST_SWEEPS
+    core = inspect.signature(optimize_flips).parameters
+    for parameter in flips.FLIPS.parameters:
+        if parameter.name in core and parameter.name not in ("selection", "maxflips"):
+            assert parameter.default == core[parameter.name].default
+    own = {p.name for p in flips.FLIPS.parameters} - {"selection", "allowloss"}
+    assert own == set(core) - {"vertices", "faces", "selected_faces", "locked_edges"}
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"energy": "area"},
+        {"virtualpoint": "closest"},
+        {"virtualpoint": 0.3},
+        {"virtualpoint": "0.3"},
+        {"checkintersections": True, "foldangle": 180.0},
+        {"search": "variable depth", "depth": 2, "breadth": 1},
+        {"search": "annealing", "sweeps": 3, "seed": 5},
+        {"search": "thorough", "depth": 2},
+    ],
+)
+def test_each_option_reaches_the_core(options):
+    vertices, faces = meshes.bumpy_sphere(200)
+    ms = set_of(vertices, faces)
+    ms.apply_filter(FLIP, **options)
+    if "virtualpoint" in options and options["virtualpoint"] != "closest":
+        options = {"virtualpoint": float(options["virtualpoint"])}
+    expected = optimize_flips(vertices, faces, **options)
+    np.testing.assert_array_equal(ms.current_mesh().face_matrix(), expected.faces)
+    # So that an option that gets lost is noticed.
+    assert not np.array_equal(expected.faces, optimize_flips(vertices, faces).faces)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"depth": 0}, "depth must lie in 1 .. 100, not 0"),
+        ({"breadth": 13}, "breadth must lie in 1 .. 12, not 13"),
+        ({"sweeps": 0}, "sweeps must lie in 1 .. 1000000000, not 0"),
+        ({"seed": -1}, "seed must not be negative, not -1"),
+        ({"virtualpoint": 1.0}, "virtualpoint must be 'midpoint', 'closest' or a number"),
+        ({"virtualpoint": "nan"}, "between 0 and 1, not nan"),
+        ({"virtualpoint": "middle"}, "unknown virtualpoint 'middle'; choose 'midpoint', 'closest'"),
+        ({"virtualpoint": True}, "virtualpoint: True is a bool, a text or a number is expected"),
+        ({"virtualpoint": None}, "a text or a number is expected"),
+        ({"depth": 2.5}, "depth: 2.5 is a float, an int is expected"),
+    ],
+)
+def test_wrong_values_name_the_parameter_and_change_nothing(bumpy, options, message):
+    before = bumpy.current_mesh().face_matrix().copy()
+    with pytest.raises(pymeshlab.PyMeshLabException, match=message):
+        bumpy.apply_filter(FLIP, **options)
+    np.testing.assert_array_equal(bumpy.current_mesh().face_matrix(), before)
 
 
 def test_enums_by_index(bumpy):

@@ -8,13 +8,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .energy import area, mean_curvature
+from .energy.gaussian_curvature import angle_defects
+from .energy.triangles import corners
 from .energy.willmore import edge_angle
-from .guards import dihedral_angle, triangle_shape
+from .guards import triangle_shape
 from .mesh.build import build, interior_vertices
-from .mesh.halfedge import apex, following
 from .mesh.jit import jit
-from .mesh.points import angle_between, norm, normal, point, subtract
-from .mesh.validate import check_mesh, to_unit_scale
+from .mesh.validate import check_mesh, in_input_units, to_unit_scale
 
 FULL_TURN = 2.0 * math.pi
 
@@ -139,12 +140,12 @@ def measures(vertices, faces):
         As `meshlab_willmore.mesh.validate.check_mesh`.
     """
     mesh, exponent = _unit_mesh(vertices, faces)
-    gaussian = _angle_defects(mesh)[interior_vertices(mesh)]
+    gaussian = angle_defects(mesh)
     return Measures(
-        area=_rescaled(_area(mesh), 2 * exponent),
+        area=in_input_units(area.total(mesh), 2 * exponent),
         gaussian_curvature=float(gaussian.sum()),
         absolute_gaussian_curvature=float(np.abs(gaussian).sum()),
-        absolute_mean_curvature=_rescaled(_mean_curvature(mesh), exponent),
+        absolute_mean_curvature=in_input_units(mean_curvature.total(mesh), exponent),
         willmore_energy=willmore_energy_of(mesh),
     )
 
@@ -182,12 +183,6 @@ def _unit_mesh(vertices, faces):
     return build(scaled, faces), exponent
 
 
-def _rescaled(value, exponent):
-    """Return a length or area in the units of the input; one too large for a float is infinite."""
-    with np.errstate(over="ignore", under="ignore"):
-        return float(np.ldexp(value, exponent))
-
-
 def _interior_edges(mesh):
     """Return the lower half-edge of each edge with a twin."""
     return np.flatnonzero(np.arange(len(mesh.twin)) < mesh.twin)
@@ -221,52 +216,9 @@ def _edge_angles(mesh, edges):
 
 
 @jit
-def _corners(mesh, f):
-    """Return the three points of the face `f`."""
-    return (
-        point(mesh.vertices, mesh.origin[3 * f]),
-        point(mesh.vertices, mesh.origin[3 * f + 1]),
-        point(mesh.vertices, mesh.origin[3 * f + 2]),
-    )
-
-
-@jit
-def _area(mesh):
-    total = 0.0
-    for f in range(len(mesh.origin) // 3):
-        a, b, c = _corners(mesh, f)
-        total += 0.5 * norm(normal(a, b, c))
-    return total
-
-
-@jit
 def _shapes(mesh):
     shapes = np.empty(len(mesh.origin) // 3)
     for f in range(len(shapes)):
-        a, b, c = _corners(mesh, f)
+        a, b, c = corners(mesh, f)
         shapes[f] = triangle_shape(a, b, c)
     return shapes
-
-
-@jit
-def _angle_defects(mesh):
-    """Return 2 pi - (sum of the angles) for each vertex."""
-    defects = np.full(len(mesh.vertices), FULL_TURN)
-    for h in range(len(mesh.origin)):
-        v = point(mesh.vertices, mesh.origin[h])
-        ahead = subtract(point(mesh.vertices, mesh.origin[following(h)]), v)
-        behind = subtract(point(mesh.vertices, apex(mesh, h)), v)
-        defects[mesh.origin[h]] -= angle_between(ahead, behind)
-    return defects
-
-
-@jit
-def _mean_curvature(mesh):
-    """Return the sum of dihedral angle times length over the edges with a twin."""
-    total = 0.0
-    for h in range(len(mesh.origin)):
-        if h < mesh.twin[h]:
-            i = point(mesh.vertices, mesh.origin[h])
-            j = point(mesh.vertices, mesh.origin[mesh.twin[h]])
-            total += dihedral_angle(mesh, h) * norm(subtract(j, i))
-    return total

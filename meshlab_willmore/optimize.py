@@ -1,14 +1,16 @@
 """Edge flips that lower an energy, on plain arrays: the package's main function."""
 
-import functools
 import math
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
 from . import guards
+from .energy.kinds import KINDS
 from .measure import willmore_energy_of
 from .mesh.build import build, faces_of
+from .mesh.halfedge import lengths_of_sides
 from .mesh.validate import (
     check_choice,
     check_count,
@@ -18,25 +20,29 @@ from .mesh.validate import (
     check_limit,
     check_mask,
     check_mesh,
+    in_input_units,
     to_unit_scale,
 )
 from .search import entries, greedy, variable_depth
 
-# Each search, bound to the kernels that run it on each energy.
-SEARCHES = {
-    "greedy": {
-        "virtual willmore": functools.partial(greedy.run, entries.greedy_virtual),
-        "willmore": functools.partial(greedy.run, entries.greedy_willmore),
-    },
-    "variable depth": {
-        "virtual willmore": functools.partial(
-            variable_depth.run, entries.depth_virtual, entries.greedy_virtual
-        ),
-        "willmore": functools.partial(
-            variable_depth.run, entries.depth_willmore, entries.greedy_willmore
-        ),
-    },
+
+class Kernels(NamedTuple):
+    """The compiled searches for one energy."""
+
+    greedy: Callable
+    depth: Callable
+
+
+KERNELS = {
+    "virtual willmore": Kernels(entries.greedy_virtual, entries.depth_virtual),
+    "willmore": Kernels(entries.greedy_willmore, entries.depth_willmore),
+    "uniform virtual willmore": Kernels(entries.greedy_uniform, entries.depth_uniform),
+    "area": Kernels(entries.greedy_area, entries.depth_area),
+    "mean curvature": Kernels(entries.greedy_mean, entries.depth_mean),
+    "gaussian curvature": Kernels(entries.greedy_gaussian, entries.depth_gaussian),
+    "delaunay": Kernels(entries.greedy_delaunay, entries.depth_delaunay),
 }
+SEARCHES = ("greedy", "variable depth")
 STOPPED = "maxflips reached"
 REASONS = {
     "greedy": {
@@ -49,6 +55,11 @@ REASONS = {
     },
 }
 MOST_DEPTH = 100
+# What counts as a gain, for energies that are measured in lengths: this part of the usual edge,
+# and of the longest one, whose rounding would else look like gains.
+LEAST_OF_MEDIAN = 1e-7
+LEAST_OF_LONGEST = 1e-12
+RANKS_PER_TOLERANCE = 100.0
 
 
 class FlipResult(NamedTuple):
@@ -61,10 +72,11 @@ class FlipResult(NamedTuple):
     flips : int
         Number of flips made, those that the search took back left out.
     gain : float
-        Sum of the cost reductions of the flips, in the chosen energy (radians). For the energy
-        "willmore" on a closed mesh it is `willmore_before` - `willmore_after`.
-        With "virtual willmore" and "variable depth" it may be negative, since the chains are judged
-        by the Willmore energy.
+        Sum of the cost reductions of the flips, in the chosen energy and its unit (radians; the
+        coordinates' unit times radians for "mean curvature", its square for "area", none for
+        "delaunay"). That is what the energy has dropped by, but for "virtual willmore", which is no
+        function of the mesh; there it may be negative where chains of flips are judged by the
+        Willmore energy.
     willmore_before, willmore_after : float
         Willmore energy of the mesh, as `meshlab_willmore.measure.willmore_energy` gives it: summed
         over interior vertices. On a mesh with a boundary it leaves out what the edges carry at
@@ -73,10 +85,10 @@ class FlipResult(NamedTuple):
         two differ by a constant.
     converged : bool
         True if no allowed flip lowers the energy any more. Allowed is what neither connectivity,
-        locks and the fold guard nor the rule of the option `monotone` forbid. With True, that rule
-        forbids flips that raise the Willmore energy; with False, flips to an edge that was flipped
-        away before. So there may be flips left that would lower the energy. The search "variable
-        depth" says so of chains of flips, see there for what they are judged by.
+        locks and the fold guard nor, with "virtual willmore", the rule of the option `monotone`
+        forbid. With True, that rule forbids flips that raise the Willmore energy; with False, flips
+        to an edge that was flipped away before. So there may be flips left that would lower the
+        energy. The search "variable depth" says so of chains of flips.
     reason : str
         Why it stopped.
     corners : (m, 3) int32
@@ -131,14 +143,22 @@ def optimize_flips(
         Coordinates.
     faces : (m, 3) array_like of int
         Vertex indices of each face.
-    energy : {"virtual willmore", "willmore"}
-        What to minimise: the paper's virtual Willmore energy, or the Willmore energy itself.
+    energy : str
+        What to minimise.
+
+        - "virtual willmore": the paper's virtual Willmore energy. It is no function of the mesh.
+        - "willmore": the Willmore energy itself.
+        - "uniform virtual willmore": the Willmore energy of the mesh with a virtual vertex in the
+          middle of every edge, a function of the mesh.
+        - "area": the area.
+        - "mean curvature": dihedral angle times length, summed over the edges.
+        - "gaussian curvature": the absolute value of 2 pi minus the angles, summed over vertices.
+        - "delaunay": the cotangents of all angles, which Delaunay triangulations minimise.
     search : {"greedy", "variable depth"}
         How to minimise it. "greedy": always the flip of the largest cost reduction. "variable
         depth": the same first, then chains of flips that may go through a loss, until none helps;
         slower, and far less dependent on the triangulation at the start. With the virtual Willmore
-        energy, which is no function of the mesh, it decides where a chain goes, and the Willmore
-        energy whether it helps.
+        energy, that energy decides where a chain goes, and the Willmore energy whether it helps.
     depth : int
         Most flips of a chain, 1 to 100. Only for "variable depth".
     breadth : int
@@ -146,11 +166,12 @@ def optimize_flips(
         many at the third, and so on. 1 is the quickest; more, with more depth, gets out of nearly
         every local minimum.
     monotone : bool
-        Make no flip that raises the Willmore energy, in the form that counts every interior edge:
-        twice the sum of their intersection angles. (With a boundary, that is not the number
-        `willmore_after` of the result, which may rise; see there.) The paper has no such rule;
-        without it, an edge that was flipped away never comes back, as the search might not end
-        otherwise. With "variable depth" the rule holds for each chain as a whole.
+        With "virtual willmore", make no flip that raises the Willmore energy, in the form that
+        counts every interior edge: twice the sum of their intersection angles. (With a boundary,
+        that is not the number `willmore_after` of the result, which may rise; see there.) The paper
+        has no such rule; without it, an edge that was flipped away never comes back, as the search
+        might not end otherwise. With "variable depth" the rule holds for each chain as a whole.
+        Other energies go down with each flip, and need no rule.
     foldangle : float
         Degrees in [0, 180]. Refuse flips to an edge with a larger dihedral angle (0 is flat) than
         this and than the old edge, and flips to a sliver (shape below 0.05 and below the worse old
@@ -189,27 +210,32 @@ def optimize_flips(
     >>> result.willmore_before - result.willmore_after  # doctest: +SKIP
     """
     check_choice("search", search, SEARCHES)
-    check_choice("energy", energy, SEARCHES[search])
+    check_choice("energy", energy, KERNELS)
     vertices, faces = check_mesh(vertices, faces)
     rules = _rules(monotone, foldangle, maxflips)
     reach = variable_depth.Reach(
         check_count("depth", depth, MOST_DEPTH),
         check_count("breadth", breadth, variable_depth.RING),
     )
-    options = {"reach": reach} if search == "variable depth" else {}
     locks = _Locks(
         check_degrees("featuredeg", featuredeg),
         None if selected_faces is None else check_mask(selected_faces, len(faces)),
         None if locked_edges is None else check_edges(locked_edges),
     )
-    mesh = build(to_unit_scale(vertices, faces)[0], faces)
+    scaled, exponent = to_unit_scale(vertices, faces)
+    mesh = build(scaled, faces)
     _apply_locks(mesh, locks)
     before = willmore_energy_of(mesh)
-    progress = SEARCHES[search][energy](mesh, rules, **options)
+    kind, kernels = KINDS[energy], KERNELS[energy]
+    rules = _suited(rules, kind, mesh)
+    if search == "greedy":
+        progress = greedy.run(kernels.greedy, mesh, rules)
+    else:
+        progress = variable_depth.run(kernels.depth, kernels.greedy, mesh, rules, reach)
     return FlipResult(
         faces=faces_of(mesh),
         flips=progress.flips,
-        gain=progress.gain,
+        gain=in_input_units(progress.gain, exponent * kind.length_power),
         willmore_before=before,
         willmore_after=willmore_energy_of(mesh),
         converged=progress.state == greedy.CONVERGED,
@@ -226,6 +252,23 @@ def _rules(monotone, foldangle, maxflips):
         monotone=check_flag("monotone", monotone),
         maxflips=greedy.NO_LIMIT if limit is None else min(limit, greedy.NO_LIMIT),
     )
+
+
+def _suited(rules, kind, mesh):
+    """Return the rules as an energy needs them, with tolerances in its unit."""
+    rules = rules._replace(
+        monotone=rules.monotone and not kind.is_potential,
+        is_potential=kind.is_potential,
+        is_wide=kind.is_wide,
+    )
+    if not (kind.length_power and len(mesh.origin)):
+        return rules
+    lengths = lengths_of_sides(mesh)
+    least = max(
+        LEAST_OF_MEDIAN * float(np.median(lengths)) ** kind.length_power,
+        LEAST_OF_LONGEST * float(lengths.max()) ** kind.length_power,
+    )
+    return rules._replace(tolerance=least, rank_step=least / RANKS_PER_TOLERANCE)
 
 
 def _apply_locks(mesh, locks):

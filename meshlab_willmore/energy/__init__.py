@@ -1,5 +1,6 @@
-"""What is minimised: intersection angles, the Willmore energy and the virtual Willmore energy.
+"""What is minimised: the Willmore energy with and without virtual points, areas, curvatures.
 
 An energy is a module with two jitted functions of the same signature for all:
 ``cost_reduction(mesh, h) -> float`` (positive: the flip of `h` helps) and ``total(mesh) -> float``.
+What a search has to know beside them stands in `meshlab_willmore.energy.kinds`.
 """

@@ -22,9 +22,10 @@ from ..mesh.jit import jit
 from ..mesh.points import dot, subtract
 from .triangles import corners, has_coincident_corners, twice_area
 
-# A face as flat as the rounding of its area counts as one of this sum, also if it has no area at
-# all: then an infinite sum would forbid the flip that removes it.
-FLATTEST = 2.0**52
+# A face as flat as the rounding of coordinates in single precision makes it counts as one of this
+# sum, also if it has no area at all: then an infinite sum would forbid the flip that removes it.
+# And sums of a few such terms are still good to 1e-7, which is what a search goes by.
+FLATTEST = 2.0**24
 
 
 @jit

@@ -1,19 +1,40 @@
 """The total absolute mean curvature of a mesh: the sum of |theta| |e| over its interior edges.
 
 theta is the angle between the normals of the two faces at e, in [0, pi] and 0 where they are
-coplanar or one of them has no normal. The sum has the unit of a length. Boundary edges have no
-angle and contribute nothing. Source of the definition: "Mesh optimisation based on Willmore
-energy", section 2.
+coplanar or one of them is too flat to have a normal. The sum has the unit of a length. Boundary
+edges have no angle and contribute nothing. Source of the definition: "Mesh optimisation based on
+Willmore energy", section 2.
 
-A flip changes the angles at five edges: the diagonal and the four sides of the quad.
+A flip changes the angles at five edges: the diagonal and the four sides of the quad. A flip to a
+face without a normal, at which bends would be hidden, has no cost reduction.
 """
 
 import math
 
 from ..mesh.halfedge import NONE, apex, diamond, following, previous
 from ..mesh.jit import jit
-from ..mesh.points import angle_between, norm, normal, point, subtract
+from ..mesh.points import Point, angle_between, cross, dot, norm, point, subtract
 from .triangles import has_coincident_corners
+
+# Twice the area over the sum of the squared sides, below which the normal of a face is made of the
+# rounding of its coordinates, and depends on the corner that it is computed at.
+FLATTEST = 1e-7
+NO_NORMAL = Point(0.0, 0.0, 0.0)
+
+
+@jit
+def _normal(a, b, c):
+    """Return a normal of the triangle (a, b, c), `NO_NORMAL` if it is too flat to have one."""
+    ab, bc, ca = subtract(b, a), subtract(c, b), subtract(a, c)
+    vector = cross(ab, bc)
+    if norm(vector) <= FLATTEST * (dot(ab, ab) + dot(bc, bc) + dot(ca, ca)):
+        return NO_NORMAL
+    return vector
+
+
+@jit
+def _is_none(vector):
+    return vector.x == 0.0 and vector.y == 0.0 and vector.z == 0.0
 
 
 @jit
@@ -22,7 +43,7 @@ def _side(mesh, side, a, b, before, after):
     t = mesh.twin[side]
     if t == NONE:
         return 0.0
-    outside = normal(b, a, point(mesh.vertices, apex(mesh, t)))
+    outside = _normal(b, a, point(mesh.vertices, apex(mesh, t)))
     turned = angle_between(before, outside) - angle_between(after, outside)
     return turned * norm(subtract(b, a))
 
@@ -41,16 +62,18 @@ def cost_reduction(mesh, h):
     -------
     float
         In units of the coordinates times radians; positive where the flip helps, minus infinity
-        where corners of the diamond coincide. It depends on the two faces at `h` and on the four
-        around them.
+        where corners of the diamond coincide or a new face has no normal. It depends on the two
+        faces at `h` and on the four around them.
     """
     quad = diamond(mesh, h)
     if has_coincident_corners(quad):
         return -math.inf
     i, j, k, l = quad
     t = mesh.twin[h]
-    at_k, at_l = normal(i, j, k), normal(j, i, l)
-    at_i, at_j = normal(k, i, l), normal(l, j, k)
+    at_k, at_l = _normal(i, j, k), _normal(j, i, l)
+    at_i, at_j = _normal(k, i, l), _normal(l, j, k)
+    if _is_none(at_i) or _is_none(at_j):
+        return -math.inf
     gain = angle_between(at_k, at_l) * norm(subtract(j, i))
     gain -= angle_between(at_i, at_j) * norm(subtract(l, k))
     gain += _side(mesh, following(h), j, k, at_k, at_j)
@@ -67,5 +90,5 @@ def total(mesh):
     for h in range(len(mesh.origin)):
         if h < mesh.twin[h]:
             i, j, k, l = diamond(mesh, h)
-            bends += angle_between(normal(i, j, k), normal(j, i, l)) * norm(subtract(j, i))
+            bends += angle_between(_normal(i, j, k), _normal(j, i, l)) * norm(subtract(j, i))
     return bends

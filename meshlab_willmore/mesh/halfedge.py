@@ -23,7 +23,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .jit import jit
-from .points import Point, point
+from .points import Point, norm, point, subtract
 
 NONE = -1
 
@@ -94,6 +94,16 @@ def diamond(mesh, h):
         point(mesh.vertices, apex(mesh, h)),
         point(mesh.vertices, apex(mesh, t)),
     )
+
+
+@jit
+def lengths_of_sides(mesh):
+    """Return the length of each half-edge (3 m,), an edge with two faces twice."""
+    lengths = np.empty(len(mesh.origin))
+    for h in range(len(lengths)):
+        start = point(mesh.vertices, mesh.origin[h])
+        lengths[h] = norm(subtract(point(mesh.vertices, mesh.origin[following(h)]), start))
+    return lengths
 
 
 @jit

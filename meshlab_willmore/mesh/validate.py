@@ -186,3 +186,13 @@ def to_unit_scale(vertices, faces):
     # Two steps, as 2**-exponent itself may not be a float.
     half = -exponent // 2
     return np.ldexp(np.ldexp(kept, half), -exponent - half), exponent
+
+
+def in_input_units(value, exponent):
+    """Return ``value * 2**exponent``: a measure at unit scale in the units of the input.
+
+    For a length, `exponent` is that of `to_unit_scale`, for an area twice that. What is too large
+    for a float is infinite.
+    """
+    with np.errstate(over="ignore", under="ignore"):
+        return float(np.ldexp(value, exponent))

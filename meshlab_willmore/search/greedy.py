@@ -7,6 +7,7 @@
             if the flip lowers no true energy: i-j must stay away
             flip i-j to k-l
             rescore k-l, the four sides, and the two other edges of each face outside (13 edges)
+        for an energy that looks further: rescore the edges at and opposite to i, j, k and l
             rescore the edges that could not be flipped because i-j was there
 
 An edge may be flipped if connectivity and guards allow it, if its cost reduction exceeds a
@@ -14,7 +15,8 @@ tolerance and, under the *monotone* rule, if the Willmore energy does not rise. 
 the diamond and the faces around it only, except for the existence of k-l, which the last line
 covers: when the queue is empty, no flip is left. n flips take O(n log n) time.
 
-**Why it ends.** The cost reduction is no difference of a potential, and descent on it alone can go
+**Why it ends.** Where the cost reduction is the drop of an energy, by more than rounding, no
+triangulation comes back. That of the virtual Willmore energy is not, and descent on it alone can go
 round in circles. *Without the monotone rule* an edge that was flipped away never comes back, so no
 vertex pair is flipped away twice. *With it* call a flip strict if it lowers the Willmore energy by
 more than 2 tau (tau is far above the rounding of that number), else a tie; a tie raises it by at
@@ -65,12 +67,14 @@ class Rules(NamedTuple):
     maxflips : int
         Number of flips after which to stop.
     tolerance : float
-        A cost reduction must exceed this (radians); planar parallelograms tie at 0.
+        A cost reduction must exceed this (in units of the energy); planar parallelograms tie at 0.
     tie : float
         A change of the Willmore energy (radians) up to this counts as none.
     rank_step : float
-        Cost reductions are ranked in steps of this size (radians). Edges that are equal by symmetry
-        then go by number, and not by rounding, which a rotation would change.
+        Cost reductions are ranked in steps of this size (in units of the energy). Edges that are
+        equal by symmetry then go by number, and not by rounding, which a rotation would change.
+    is_potential, is_wide : bool
+        As in `meshlab_willmore.energy.kinds.Kind`.
     """
 
     fold: guards.FoldLimits
@@ -79,6 +83,8 @@ class Rules(NamedTuple):
     tolerance: float = 1e-7
     tie: float = 1e-12
     rank_step: float = 1e-9
+    is_potential: bool = False
+    is_wide: bool = False
 
 
 class Task(NamedTuple):
@@ -144,6 +150,23 @@ def _rescore_around(task, h, cost_reduction):
 
 
 @generic
+def _rescore_fans(task, h, cost_reduction):
+    """Rescore the edges at, and opposite to, the corners of the diamond of `h`."""
+    mesh = task.mesh
+    t = np.int64(mesh.twin[h])
+    for spoke in (h, previous(h), t, previous(t)):
+        # A vertex of several fans has no curvature, but its faces still have the other corners.
+        x = spoke
+        while True:
+            _rescore(task, x, cost_reduction)
+            _rescore(task, previous(x), cost_reduction)
+            _rescore(task, following(x), cost_reduction)
+            x = next_in_fan(mesh, x)
+            if x == spoke:
+                break
+
+
+@generic
 def _rescore_opposite(task, spoke, v, cost_reduction):
     """Rescore the edge opposite to the origin of `spoke` if the apex on its other side is `v`."""
     side = following(spoke)
@@ -177,6 +200,8 @@ def _rescore_freed(task, h, cost_reduction):
 def _must_stay_away(task, h):
     """Tell whether the edge of `h` must not come back once flipped: the flip lowers no energy."""
     rules = task.rules
+    if rules.is_potential:
+        return False
     return not rules.monotone or willmore.cost_reduction(task.mesh, h) <= 2.0 * rules.tie
 
 
@@ -229,7 +254,10 @@ def advance(task, progress, cost_reduction):
         flips += 1
         gain += cost_reduction(mesh, h)
         flip(mesh, h)
-        _rescore_around(task, h, cost_reduction)
+        if task.rules.is_wide:
+            _rescore_fans(task, h, cost_reduction)
+        else:
+            _rescore_around(task, h, cost_reduction)
         _rescore_freed(task, h, cost_reduction)
     return scored, flips, gain, WORKING
 

@@ -25,8 +25,9 @@ Willmore energy.
 **What a chain sees.** A chain of D flips that starts at the edge i-j reads the mesh at vertices at
 most D edges away from i or j. (The quad around an edge, and the corners of the faces outside, are
 neighbours of i or j; one flip leads to edges between these. That an edge exists is known at both of
-its ends.) So when all edges were tried, and then those within D edges of a change, over and over
-until nothing changes, no chain is left. That takes O(n) time for each round of n edges.
+its ends. An energy that looks further, `Rules.is_wide`, reads one ring more.) So when all edges
+were tried, and then those within D edges of a change, over and over until nothing changes, no chain
+is left. That takes O(n) time for each round of n edges.
 """
 
 from typing import NamedTuple
@@ -554,6 +555,6 @@ def run(kernel, descent, mesh, rules, reach):
         if progress.state == STOPPED:
             return progress
     while progress.state == CONVERGED and touched.any():
-        _queue_near(mesh, pending, touched, reach.depth)
+        _queue_near(mesh, pending, touched, reach.depth + rules.is_wide)
         progress = _work_off(kernel, task, progress)
     return progress

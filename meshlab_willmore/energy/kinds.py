@@ -1,0 +1,47 @@
+"""The energies by name, and what a search has to know about each."""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from . import (
+    area,
+    delaunay,
+    gaussian_curvature,
+    mean_curvature,
+    uniform,
+    virtual,
+    willmore,
+)
+
+
+class Kind(NamedTuple):
+    """An energy, seen from outside.
+
+    Attributes
+    ----------
+    total : callable
+        Jitted function of a mesh.
+    is_potential : bool
+        Whether each cost reduction is `total` before minus after the flip.
+    length_power : int
+        The energy is measured in radians, or in no unit, times a length to this power.
+    is_wide : bool
+        Whether a flip changes the cost reductions of all edges at, and opposite to, the corners of
+        its diamond; else only those of its sides and of the other sides of the faces outside.
+    """
+
+    total: Callable
+    is_potential: bool = True
+    length_power: int = 0
+    is_wide: bool = False
+
+
+KINDS = {
+    "virtual willmore": Kind(virtual.total, is_potential=False),
+    "willmore": Kind(willmore.total),
+    "uniform virtual willmore": Kind(uniform.total),
+    "area": Kind(area.total, length_power=2),
+    "mean curvature": Kind(mean_curvature.total, length_power=1),
+    "gaussian curvature": Kind(gaussian_curvature.total, is_wide=True),
+    "delaunay": Kind(delaunay.total),
+}

@@ -1,7 +1,6 @@
 """Edge flips that lower an energy, on plain arrays: the package's main function."""
 
 import math
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -20,29 +19,16 @@ from .mesh.validate import (
     check_limit,
     check_mask,
     check_mesh,
+    check_seed,
     in_input_units,
     to_unit_scale,
 )
-from .search import entries, greedy, variable_depth
+from .search import annealing, greedy, thorough, variable_depth
+from .search.kernels import KERNELS
 
-
-class Kernels(NamedTuple):
-    """The compiled searches for one energy."""
-
-    greedy: Callable
-    depth: Callable
-
-
-KERNELS = {
-    "virtual willmore": Kernels(entries.greedy_virtual, entries.depth_virtual),
-    "willmore": Kernels(entries.greedy_willmore, entries.depth_willmore),
-    "uniform virtual willmore": Kernels(entries.greedy_uniform, entries.depth_uniform),
-    "area": Kernels(entries.greedy_area, entries.depth_area),
-    "mean curvature": Kernels(entries.greedy_mean, entries.depth_mean),
-    "gaussian curvature": Kernels(entries.greedy_gaussian, entries.depth_gaussian),
-    "delaunay": Kernels(entries.greedy_delaunay, entries.depth_delaunay),
-}
-SEARCHES = ("greedy", "variable depth")
+SEARCHES = ("greedy", "variable depth", "annealing", "thorough")
+# Where else the thorough search begins: after descents along these energies, one after another.
+PRELUDES = ("delaunay", "mean curvature")
 STOPPED = "maxflips reached"
 REASONS = {
     "greedy": {
@@ -53,8 +39,17 @@ REASONS = {
         greedy.CONVERGED: "no allowed chain of flips lowers the energy any more",
         greedy.STOPPED: STOPPED,
     },
+    "annealing": {
+        greedy.CONVERGED: "no allowed flip lowers the energy any more",
+        greedy.STOPPED: STOPPED,
+    },
+    "thorough": {
+        greedy.CONVERGED: "no allowed chain of flips lowers the energy any more",
+        greedy.STOPPED: STOPPED,
+    },
 }
 MOST_DEPTH = 100
+MOST_SWEEPS = 10**9
 # What counts as a gain, for energies that are measured in lengths: this part of the usual edge,
 # and of the longest one, whose rounding would else look like gains.
 LEAST_OF_MEDIAN = 1e-7
@@ -123,6 +118,8 @@ def optimize_flips(
     search="greedy",
     depth=5,
     breadth=3,
+    sweeps=200,
+    seed=0,
     monotone=True,
     foldangle=90.0,
     featuredeg=180.0,
@@ -154,17 +151,27 @@ def optimize_flips(
         - "mean curvature": dihedral angle times length, summed over the edges.
         - "gaussian curvature": the absolute value of 2 pi minus the angles, summed over vertices.
         - "delaunay": the cotangents of all angles, which Delaunay triangulations minimise.
-    search : {"greedy", "variable depth"}
+    search : {"greedy", "variable depth", "annealing", "thorough"}
         How to minimise it. "greedy": always the flip of the largest cost reduction. "variable
         depth": the same first, then chains of flips that may go through a loss, until none helps;
         slower, and far less dependent on the triangulation at the start. With the virtual Willmore
         energy, that energy decides where a chain goes, and the Willmore energy whether it helps.
+        "annealing": greedy first, then random flips that may go through a loss, the less so the
+        colder it gets, then greedy again; never worse than "greedy". "thorough": "variable depth"
+        from several starts, the mesh itself and what greedy flips along other energies make of it;
+        the best of these counts, so it is never worse than "variable depth". For these two, the
+        Willmore energy says what is better where the virtual one is chosen.
     depth : int
-        Most flips of a chain, 1 to 100. Only for "variable depth".
+        Most flips of a chain, 1 to 100. Only for "variable depth" and "thorough".
     breadth : int
         How many ways each chain of "variable depth" tries at its second flip, 1 to 12; half as
         many at the third, and so on. 1 is the quickest; more, with more depth, gets out of nearly
         every local minimum.
+    sweeps : int
+        How slowly "annealing" cools: at each of so many temperatures it tries as many flips as
+        there are edges. Time grows in proportion.
+    seed : int
+        At least 0: of the random numbers of "annealing". The same seed gives the same result.
     monotone : bool
         With "virtual willmore", make no flip that raises the Willmore energy, in the form that
         counts every interior edge: twice the sum of their intersection angles. (With a boundary,
@@ -217,6 +224,9 @@ def optimize_flips(
         check_count("depth", depth, MOST_DEPTH),
         check_count("breadth", breadth, variable_depth.RING),
     )
+    schedule = annealing.Schedule(
+        check_count("sweeps", sweeps, MOST_SWEEPS), check_seed("seed", seed)
+    )
     locks = _Locks(
         check_degrees("featuredeg", featuredeg),
         None if selected_faces is None else check_mask(selected_faces, len(faces)),
@@ -230,8 +240,16 @@ def optimize_flips(
     rules = _suited(rules, kind, mesh)
     if search == "greedy":
         progress = greedy.run(kernels.greedy, mesh, rules)
-    else:
+    elif search == "variable depth":
         progress = variable_depth.run(kernels.depth, kernels.greedy, mesh, rules, reach)
+    elif search == "annealing":
+        progress = annealing.run(kernels, mesh, rules, schedule)
+    else:
+        preludes = [
+            thorough.Prelude(KERNELS[name].greedy, _suited(rules, KINDS[name], mesh))
+            for name in PRELUDES
+        ]
+        progress = thorough.run(kernels, preludes, mesh, rules, reach)
     return FlipResult(
         faces=faces_of(mesh),
         flips=progress.flips,

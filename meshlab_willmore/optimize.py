@@ -1,7 +1,6 @@
 """Edge flips that lower an energy, on plain arrays: the package's main function."""
 
 import math
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -22,37 +21,17 @@ from .mesh.validate import (
     check_mask,
     check_mesh,
     check_place,
+    check_seed,
     in_input_units,
     to_unit_scale,
 )
-from .search import entries, greedy, variable_depth
+from .search import annealing, greedy, thorough, variable_depth
+from .search.kernels import AT, KERNELS, PLACED_KERNELS
 
-
-class Kernels(NamedTuple):
-    """The compiled searches for one energy."""
-
-    greedy: Callable
-    depth: Callable
-
-
-KERNELS = {
-    "virtual willmore": Kernels(entries.greedy_virtual, entries.depth_virtual),
-    "willmore": Kernels(entries.greedy_willmore, entries.depth_willmore),
-    "uniform virtual willmore": Kernels(entries.greedy_uniform, entries.depth_uniform),
-    "area": Kernels(entries.greedy_area, entries.depth_area),
-    "mean curvature": Kernels(entries.greedy_mean, entries.depth_mean),
-    "gaussian curvature": Kernels(entries.greedy_gaussian, entries.depth_gaussian),
-    "delaunay": Kernels(entries.greedy_delaunay, entries.depth_delaunay),
-}
-# The same for "virtual willmore", by where the virtual points are.
-AT = "at"
-PLACED_KERNELS = {
-    "midpoint": KERNELS["virtual willmore"],
-    "closest": Kernels(entries.greedy_virtual_closest, entries.depth_virtual_closest),
-    AT: Kernels(entries.greedy_virtual_at, entries.depth_virtual_at),
-}
+SEARCHES = ("greedy", "variable depth", "annealing", "thorough")
 PLACES = ("midpoint", "closest")
-SEARCHES = ("greedy", "variable depth")
+# Where else the thorough search begins: after descents along these energies.
+PRELUDES = ("delaunay", "mean curvature")
 STOPPED = "maxflips reached"
 REASONS = {
     "greedy": {
@@ -63,8 +42,17 @@ REASONS = {
         greedy.CONVERGED: "no allowed chain of flips lowers the energy any more",
         greedy.STOPPED: STOPPED,
     },
+    "annealing": {
+        greedy.CONVERGED: "no allowed flip lowers the energy any more",
+        greedy.STOPPED: STOPPED,
+    },
+    "thorough": {
+        greedy.CONVERGED: "no allowed chain of flips lowers the energy any more",
+        greedy.STOPPED: STOPPED,
+    },
 }
 MOST_DEPTH = 100
+MOST_SWEEPS = 10**9
 # What counts as a gain, for energies that are measured in lengths: this part of the usual edge,
 # and of the longest one, whose rounding would else look like gains.
 LEAST_OF_MEDIAN = 1e-7
@@ -82,11 +70,12 @@ class FlipResult(NamedTuple):
     flips : int
         Number of flips made, those that the search took back left out.
     gain : float
-        Sum of the cost reductions of the flips, in the chosen energy and its unit (radians; the
-        coordinates' unit times radians for "mean curvature", its square for "area", none for
-        "delaunay"). That is what the energy has dropped by, but for "virtual willmore", which is no
-        function of the mesh; there it may be negative where chains of flips are judged by the
-        Willmore energy.
+        What the chosen energy has dropped by, in its unit: radians; the coordinates' unit times
+        radians for "mean curvature", its square for "area", none for "delaunay". The energy
+        "virtual willmore" is no function of the mesh. For it, it is the sum of the flips' cost
+        reductions with "greedy" and "variable depth" (which judges chains by the Willmore energy,
+        so that the sum may be negative), and the drop of the Willmore energy, in the form that
+        counts every interior edge, with the other searches.
     willmore_before, willmore_after : float
         Willmore energy of the mesh, as `meshlab_willmore.measure.willmore_energy` gives it: summed
         over interior vertices. On a mesh with a boundary it leaves out what the edges carry at
@@ -133,6 +122,8 @@ def optimize_flips(
     search="greedy",
     depth=5,
     breadth=3,
+    sweeps=200,
+    seed=0,
     virtualpoint="midpoint",
     monotone=True,
     foldangle=90.0,
@@ -166,17 +157,27 @@ def optimize_flips(
         - "mean curvature": dihedral angle times length, summed over the edges.
         - "gaussian curvature": the absolute value of 2 pi minus the angles, summed over vertices.
         - "delaunay": the cotangents of all angles, which Delaunay triangulations minimise.
-    search : {"greedy", "variable depth"}
+    search : {"greedy", "variable depth", "annealing", "thorough"}
         How to minimise it. "greedy": always the flip of the largest cost reduction. "variable
         depth": the same first, then chains of flips that may go through a loss, until none helps;
         slower, and far less dependent on the triangulation at the start. With the virtual Willmore
         energy, that energy decides where a chain goes, and the Willmore energy whether it helps.
+        "annealing": greedy first, then random flips that may go through a loss, the less so the
+        colder it gets, then greedy again; never worse than "greedy". "thorough": "variable depth"
+        from several starts, the mesh itself and what greedy flips along other energies make of it;
+        the best of these counts, so it is never worse than "variable depth". For these two, the
+        Willmore energy says what is better where the virtual one is chosen.
     depth : int
-        Most flips of a chain, 1 to 100. Only for "variable depth".
+        Most flips of a chain, 1 to 100. Only for "variable depth" and "thorough".
     breadth : int
         How many ways each chain of "variable depth" tries at its second flip, 1 to 12; half as
         many at the third, and so on. 1 is the quickest; more, with more depth, gets out of nearly
         every local minimum.
+    sweeps : int
+        How slowly "annealing" cools: at each of so many temperatures it tries as many flips as
+        there are edges. Time grows in proportion.
+    seed : int
+        At least 0: of the random numbers of "annealing". The same seed gives the same result.
     virtualpoint : {"midpoint", "closest"} or float
         Where on the two diagonals the virtual points are. "midpoint": as in the paper. "closest":
         where the diagonals pass nearest each other, at least a tenth of each from its ends. A
@@ -242,6 +243,9 @@ def optimize_flips(
         check_count("depth", depth, MOST_DEPTH),
         check_count("breadth", breadth, variable_depth.RING),
     )
+    schedule = annealing.Schedule(
+        check_count("sweeps", sweeps, MOST_SWEEPS), check_seed("seed", seed)
+    )
     locks = _Locks(
         check_degrees("featuredeg", featuredeg),
         None if selected_faces is None else check_mask(selected_faces, len(faces)),
@@ -258,8 +262,16 @@ def optimize_flips(
     space = spaces.space_of(mesh, exponent) if is_guarded else spaces.no_space()
     if search == "greedy":
         progress = greedy.run(kernels.greedy, mesh, rules, space)
-    else:
+    elif search == "variable depth":
         progress = variable_depth.run(kernels.depth, kernels.greedy, mesh, rules, reach, space)
+    elif search == "annealing":
+        progress = annealing.run(kernels, mesh, rules, schedule, space)
+    else:
+        preludes = [
+            thorough.Prelude(KERNELS[name].greedy, _suited(rules, KINDS[name], mesh))
+            for name in PRELUDES
+        ]
+        progress = thorough.run(kernels, preludes, mesh, rules, reach, space)
     return FlipResult(
         faces=faces_of(mesh),
         flips=progress.flips,

@@ -78,6 +78,8 @@ def test_signature_is_the_promised_one():
         "search": "greedy",
         "depth": 5,
         "breadth": 3,
+        "sweeps": 200,
+        "seed": 0,
         "virtualpoint": "midpoint",
         "monotone": True,
         "foldangle": 90.0,

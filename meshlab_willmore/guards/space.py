@@ -81,6 +81,14 @@ def space_of(mesh, exponent=0):
     return space
 
 
+def renewed(space, mesh):
+    """Return the index of a mesh that flips have made of the one that `space` belongs to."""
+    other = space._replace(box=np.empty_like(space.box))
+    if space.active:
+        _fill(mesh, other)
+    return other
+
+
 @jit
 def _middles(mesh):
     """Return the middles of the boxes of all faces, twice as large (m, 3)."""

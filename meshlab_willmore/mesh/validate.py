@@ -178,6 +178,15 @@ def check_limit(name, value):
     return int(value)
 
 
+def check_seed(name, value):
+    """Return an integer of at least 0, which says what random numbers to draw, as int."""
+    if not _is_integer(value):
+        raise TypeError(f"{name} must be an integer, not {type(value).__name__}")
+    if value < 0:
+        raise ValueError(f"{name} must not be negative, not {value}")
+    return int(value)
+
+
 def to_unit_scale(vertices, faces):
     """Return coordinates scaled by a power of two, so that products of lengths stay in range.
 

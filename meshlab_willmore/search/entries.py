@@ -15,7 +15,7 @@ from ..energy import (
     willmore,
 )
 from ..mesh.jit import jit
-from . import greedy, variable_depth
+from . import annealing, greedy, variable_depth
 
 # --- meshlab_willmore.search.greedy.advance ------------------------------------------------------
 
@@ -133,3 +133,81 @@ def depth_gaussian(task, progress):
 def depth_delaunay(task, progress):
     """Go on with chains of flips that lower the harmonic index."""
     return variable_depth.advance(task, progress, delaunay.cost_reduction, None)
+
+
+# --- meshlab_willmore.search.annealing.advance ---------------------------------------------------
+
+
+@jit
+def anneal_willmore(task, walk, draws, temperature):
+    """Go on with random flips that the Willmore energy judges."""
+    return annealing.advance(task, walk, draws, temperature, willmore.cost_reduction)
+
+
+@jit
+def anneal_uniform(task, walk, draws, temperature):
+    """Go on with random flips that the uniform virtual Willmore energy judges."""
+    return annealing.advance(task, walk, draws, temperature, uniform.cost_reduction)
+
+
+@jit
+def anneal_area(task, walk, draws, temperature):
+    """Go on with random flips that the area judges."""
+    return annealing.advance(task, walk, draws, temperature, area.cost_reduction)
+
+
+@jit
+def anneal_mean(task, walk, draws, temperature):
+    """Go on with random flips that the absolute mean curvature judges."""
+    return annealing.advance(task, walk, draws, temperature, mean_curvature.cost_reduction)
+
+
+@jit
+def anneal_gaussian(task, walk, draws, temperature):
+    """Go on with random flips that the absolute Gaussian curvature judges."""
+    return annealing.advance(task, walk, draws, temperature, gaussian_curvature.cost_reduction)
+
+
+@jit
+def anneal_delaunay(task, walk, draws, temperature):
+    """Go on with random flips that the harmonic index judges."""
+    return annealing.advance(task, walk, draws, temperature, delaunay.cost_reduction)
+
+
+# --- meshlab_willmore.search.annealing.find_losses -----------------------------------------------
+
+
+@jit
+def losses_willmore(mesh, rules, first, losses):
+    """Find what the Willmore energy loses by flips."""
+    annealing.find_losses(mesh, rules, first, losses, willmore.cost_reduction)
+
+
+@jit
+def losses_uniform(mesh, rules, first, losses):
+    """Find what the uniform virtual Willmore energy loses by flips."""
+    annealing.find_losses(mesh, rules, first, losses, uniform.cost_reduction)
+
+
+@jit
+def losses_area(mesh, rules, first, losses):
+    """Find what the area loses by flips."""
+    annealing.find_losses(mesh, rules, first, losses, area.cost_reduction)
+
+
+@jit
+def losses_mean(mesh, rules, first, losses):
+    """Find what the absolute mean curvature loses by flips."""
+    annealing.find_losses(mesh, rules, first, losses, mean_curvature.cost_reduction)
+
+
+@jit
+def losses_gaussian(mesh, rules, first, losses):
+    """Find what the absolute Gaussian curvature loses by flips."""
+    annealing.find_losses(mesh, rules, first, losses, gaussian_curvature.cost_reduction)
+
+
+@jit
+def losses_delaunay(mesh, rules, first, losses):
+    """Find what the harmonic index loses by flips."""
+    annealing.find_losses(mesh, rules, first, losses, delaunay.cost_reduction)

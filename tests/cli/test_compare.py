@@ -21,6 +21,7 @@ from .conftest import call, cube_file, listing, loaded
 
 PLANAR = contenders.PEERS[1]
 SOME = Figures(12, 45.757, 6.22709, 12.5664, 1e-4, 0.08151, 0.67097, 3, None, None)
+CHOSEN = ("--search", "greedy", "--energy", "willmore")
 NAMES = ["initial", "greedy, willmore", *(peer.name for peer in contenders.PEERS)]
 
 
@@ -53,7 +54,7 @@ def shown(result):
 
 def test_figures_are_those_of_direct_calls(cube, monkeypatch):
     monkeypatch.setattr(contenders, "PEERS", (PLANAR,))
-    result = call("compare", cube, "--energy", "willmore", "--reference", "sphere:1", "--json")
+    result = call("compare", cube, *CHOSEN, "--reference", "sphere:1", "--json")
     assert (result.exit_code, result.stderr) == (0, "")
     initial, own, planar = json.loads(result.stdout)
     vertices, before = loaded(cube)
@@ -90,7 +91,7 @@ def assert_row(row, vertices, before, faces):
 def test_the_table_is_laid_out_exactly(cube, rows):
     rows["becomes"][NAMES[1]] = trials.Outcome(timed_out=True)
     rows["becomes"][NAMES[2]] = trials.Outcome(error="crashed (SIGSEGV)")
-    result = call("compare", cube, "--energy", "willmore", "--timeout", "1.5")
+    result = call("compare", cube, *CHOSEN, "--timeout", "1.5")
     assert shown(result)[:6] == [
         "                             flips        W     area      |K|        M  worst   mean"
         "  cuts  seconds",
@@ -110,7 +111,7 @@ def test_the_table_is_laid_out_exactly(cube, rows):
 
 def test_a_filter_that_is_too_slow_is_no_failure(cube, rows):
     rows["becomes"][NAMES[1]] = trials.Outcome(timed_out=True)
-    result = call("compare", cube, "--energy", "willmore", "--json")
+    result = call("compare", cube, *CHOSEN, "--json")
     assert (result.exit_code, result.stderr) == (0, "")
     row = json.loads(result.stdout)[1]
     assert row["timed_out"]
@@ -122,7 +123,7 @@ def test_a_reference_adds_two_columns(cube, rows):
     rows["becomes"]["initial"] = trials.Outcome(None, figures)
     nan = SOME._replace(normal_error=1.0, distance=float("nan"))._asdict()
     rows["becomes"][NAMES[1]] = trials.Outcome(2.0, nan)
-    arguments = ("compare", cube, "--energy", "willmore", "--reference", "torus:3,1")
+    arguments = ("compare", cube, *CHOSEN, "--reference", "torus:3,1")
     result = call(*arguments)
     header, _, initial, own, *_ = shown(result)
     assert header.split()[-4:] == ["cuts", "normal", "distance", "seconds"]
@@ -147,6 +148,8 @@ def test_a_reference_adds_two_columns(cube, rows):
     ],
 )
 def test_rows_can_be_chosen(cube, rows, monkeypatch, arguments, wanted):
+    # The options are made of the real choices, once.
+    compare._row_options()
     choices = {"search": ("greedy",), "energy": ("virtual willmore", "willmore")}
     monkeypatch.setattr(contenders, "choices", choices.get)
     lines = shown(call("compare", cube, "--no-peers", *arguments))[2:-1]
@@ -155,7 +158,7 @@ def test_rows_can_be_chosen(cube, rows, monkeypatch, arguments, wanted):
 
 
 def test_parameters_of_the_filter_are_options_for_our_rows(cube, rows):
-    call("compare", cube, "--featuredeg", "30", "--no-monotone", "--energy", "willmore")
+    call("compare", cube, "--featuredeg", "30", "--no-monotone", *CHOSEN)
     given = rows[NAMES[1]][1].given
     assert given == {
         "search": "greedy",
@@ -176,7 +179,7 @@ def test_a_new_parameter_becomes_an_option(monkeypatch, cube, rows):
     flip_module.filter_options.cache_clear()
     try:
         assert "Something new.  [default: 7]" in call("compare", "--help").stdout
-        call("compare", cube, "--energy", "willmore", "--newword", "9")
+        call("compare", cube, *CHOSEN, "--newword", "9")
     finally:
         flip_module.filter_options.cache_clear()
     assert rows[NAMES[1]][1].given["newword"] == 9
@@ -192,7 +195,7 @@ def test_help_leaves_out_what_is_the_same_for_all():
 
 def test_debug_shows_the_traceback_of_a_row(cube, rows):
     rows["becomes"][NAMES[1]] = trials.Outcome(error="no luck", trace="Traceback of bad luck\n")
-    arguments = ("compare", cube, "--energy", "willmore")
+    arguments = ("compare", cube, *CHOSEN)
     assert "Traceback" not in call(*arguments).stderr
     assert "Traceback of bad luck\n\nError: " in call(*arguments, "--debug").stderr
 
@@ -241,7 +244,7 @@ def test_failures_are_one_line(cube, arguments, line):
         (["cub.ply"], "there is no file cub.ply; there is cube.ply"),
         (["*.ply"], "*.ply stands for 2 files; compare takes one"),
         (["cube.ply", "--energy", "x"], "Invalid value for '--energy': 'x' is not one"),
-        (["cube.ply", "--search", "x"], "Invalid value for '--search': 'x' is not 'greedy'."),
+        (["cube.ply", "--search", "x"], "Invalid value for '--search': 'x' is not "),
         (["cube.ply", "--timeout", "0"], "Invalid value for '--timeout': 0.0 is not in the range"),
         (["cube.ply", "--foldangle", "181"], "--foldangle must lie in 0"),
         (["cube.ply", "--reference", "no.ply"], "--reference: there is no file no.ply"),

@@ -80,6 +80,26 @@ def grid(rows, columns):
     return vertices, np.array(faces, np.int32)
 
 
+def two_sheets(count, seed=0, gap=0.02):
+    """Two rough patches, one a little above the other: they hardly miss each other."""
+    vertices, faces = patch(count, seed)
+    other = vertices + (0.0, 0.0, gap)
+    return np.vstack([vertices, other]), np.vstack([faces, faces + len(vertices)])
+
+
+def crumpled(rows, seed=0, noise=0.45):
+    """A square sheet whose points are all moved about by nearly half the side of a square."""
+    vertices, faces = grid(rows, rows)
+    return vertices + noise * np.random.default_rng(seed).uniform(-1, 1, vertices.shape), faces
+
+
+def with_giant_face(vertices, faces, corners):
+    """The same mesh with one more face, of its own three corners."""
+    count = len(vertices)
+    giant = np.array([(count, count + 1, count + 2)], np.int32)
+    return np.vstack([vertices, corners]), np.vstack([faces, giant])
+
+
 def tetrahedron():
     vertices = np.array([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)], float)
     return vertices, np.array([(0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)], np.int32)

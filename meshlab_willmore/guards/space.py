@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..mesh.halfedge import NONE, apex, diamond
+from ..mesh.halfedge import NONE, apex
 from ..mesh.jit import jit
 from .faces import count_as_cut, cut_exactly, face_of, from_corner, match
 
@@ -332,6 +332,24 @@ def _new_faces(mesh, h):
 
 
 @jit
+def _first_cut(mesh, space, new, f, other):
+    """Return a face that `new`, which is to be face f, cuts, or `NONE`; leave out f and `other`."""
+    box = box_of(new)
+    node = next_leaf(space, 0, box)
+    while node != NONE:
+        start, stop = faces_at(space, node)
+        for place in range(start, stop):
+            e = np.int64(space.order[place])
+            if e in (f, other):
+                continue
+            near = face_at(mesh, e)
+            if boxes_meet(box_of(near), box) and _are_refused(new, f, near, e, space.area_scale):
+                return e
+        node = next_leaf(space, after(node), box)
+    return NONE
+
+
+@jit
 def blocker(mesh, space, h):
     """Return a face that the flip of `h` would make a new face cut.
 
@@ -349,31 +367,12 @@ def blocker(mesh, space, h):
         `NONE` if there is none: the flip may be made. The face of `h` if the two new faces would
         cut each other. As long as this face and the two at `h` stay, the answer stays.
     """
-    t = mesh.twin[h]
-    f, g = np.int64(h // 3), np.int64(t // 3)
+    f, g = np.int64(h // 3), np.int64(mesh.twin[h] // 3)
     one, other = _new_faces(mesh, h)
     if _are_refused(one, f, other, g, space.area_scale):
         return f
-    box, other_box = box_of(one), box_of(other)
-    i, j, k, l = diamond(mesh, h)
-    around = box_around(i, j, k, l)
-    node = next_leaf(space, 0, around)
-    while node != NONE:
-        start, stop = faces_at(space, node)
-        for place in range(start, stop):
-            e = np.int64(space.order[place])
-            if e in (f, g):
-                continue
-            near = face_at(mesh, e)
-            near_box = box_of(near)
-            if boxes_meet(near_box, box) and _are_refused(one, f, near, e, space.area_scale):
-                return e
-            if boxes_meet(near_box, other_box) and _are_refused(
-                other, g, near, e, space.area_scale
-            ):
-                return e
-        node = next_leaf(space, after(node), around)
-    return NONE
+    found = _first_cut(mesh, space, one, f, g)
+    return found if found != NONE else _first_cut(mesh, space, other, g, f)
 
 
 @jit

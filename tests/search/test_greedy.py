@@ -8,10 +8,12 @@ from scipy.optimize import brentq
 
 from meshlab_willmore import guards
 from meshlab_willmore.energy import virtual, willmore
+from meshlab_willmore.guards.space import space_of
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import apex, can_flip, flip
 from meshlab_willmore.search import entries, greedy
 from tests import meshes
+from tests.guards import brute
 
 KERNELS = {
     "virtual willmore": (entries.greedy_virtual, virtual.cost_reduction),
@@ -51,7 +53,7 @@ def pair(a, b):
     return frozenset((int(a), int(b)))
 
 
-def flips_by_scanning(mesh, rules, cost_reduction):
+def flips_by_scanning(mesh, rules, cost_reduction, is_blocked=lambda mesh, h: False):
     """Make all flips of the pseudocode on `mesh`; return their number and total gain."""
     gone, gains = set(), []
     for _ in range(MANY):
@@ -65,9 +67,10 @@ def flips_by_scanning(mesh, rules, cost_reduction):
             stays_away = not rules.monotone or drop <= 2 * rules.tie
             if allowed and not (stays_away and pair(apex(mesh, h), apex(mesh, t)) in gone):
                 candidates.append((-np.rint(gain / rules.rank_step), h, stays_away))
-        if not candidates:
+        free = (entry for entry in sorted(candidates) if not is_blocked(mesh, entry[1]))
+        _, h, stays_away = next(free, (None, None, None))
+        if h is None:
             return len(gains), math.fsum(gains)
-        _, h, stays_away = min(candidates)
         if stays_away:
             gone.add(pair(mesh.origin[h], mesh.origin[mesh.twin[h]]))
         before = willmore.total(mesh)
@@ -95,6 +98,38 @@ def test_the_queue_finds_what_a_scan_finds(energy, fold, monotone, name):
     assert progress.gain == pytest.approx(gain, rel=1e-12)
     assert progress.state == greedy.CONVERGED
     np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))
+
+
+CROWDED = {
+    "two sheets": meshes.two_sheets(30, gap=0.001),
+    "crumpled sheet": meshes.crumpled(5),
+    "noisy sphere": meshes.bumpy_sphere(40, bump=0.9),
+    "cut by a giant face": meshes.with_giant_face(
+        *meshes.bumpy_sphere(40), [(9, 9, 0.1), (-9, 9, 0), (0, -19, 0.2)]
+    ),
+}
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("name", CROWDED)
+@pytest.mark.parametrize("monotone", [True, False])
+@pytest.mark.parametrize("energy", KERNELS)
+def test_blocked_edges_are_tried_again_once_a_scan_would(energy, monotone, name):
+    kernel, cost_reduction = KERNELS[energy]
+    rules = greedy.Rules(FREE, monotone, MANY)
+    scanned, searched = build(*CROWDED[name]), build(*CROWDED[name])
+    unguarded = build(*CROWDED[name])
+    flips, _ = flips_by_scanning(
+        scanned, rules, cost_reduction, lambda mesh, h: bool(brute.blockers(mesh, h))
+    )
+    progress = greedy.run(kernel, searched, rules, space_of(searched))
+    validate_connectivity(searched)
+    np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))
+    assert progress.flips == flips
+    assert progress.state == greedy.CONVERGED
+    # The guard has had something to do.
+    greedy.run(kernel, unguarded, rules)
+    assert (faces_of(unguarded) != faces_of(searched)).any()
 
 
 @pytest.mark.parametrize(("count", "seed"), [(8, 7), (8, 15), (12, 106), (20, 1), (20, 30)])

@@ -7,7 +7,8 @@ import pytest
 
 from meshlab_willmore import guards
 from meshlab_willmore.energy import virtual, willmore
-from meshlab_willmore.guards.space import no_space
+from meshlab_willmore.guards import space as spaces
+from meshlab_willmore.guards.space import no_space, space_of
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import NONE, apex, can_flip, flip, following, previous
 from meshlab_willmore.mesh.jit import generic, jit
@@ -15,6 +16,7 @@ from meshlab_willmore.mesh.points import norm, point, subtract
 from meshlab_willmore.search import entries, greedy, variable_depth
 from meshlab_willmore.search.variable_depth import Reach
 from tests import meshes, reference
+from tests.guards import brute
 
 GUARDED, FREE = guards.fold_limits(90.0), guards.fold_limits(180.0)
 # More rounds than any of these runs needs.
@@ -93,13 +95,16 @@ def around(mesh, h):
 class Scan:
     """Chains by recursion, on copies; every edge is tried again until none helps."""
 
-    def __init__(self, rules, reach, rank, judge):
+    def __init__(self, rules, reach, rank, judge, is_blocked=lambda mesh, h: False):
         self.rules, self.reach, self.rank, self.judge = rules, reach, rank, judge
+        self.is_blocked = is_blocked
 
     def allowed(self, mesh, h):
         if mesh.twin[h] == NONE or not can_flip(mesh, h):
             return False
-        return np.isfinite(self.rank(mesh, h)) and not guards.folds(mesh, h, self.rules.fold)
+        if not np.isfinite(self.rank(mesh, h)) or guards.folds(mesh, h, self.rules.fold):
+            return False
+        return not self.is_blocked(mesh, h)
 
     def explore(self, mesh, candidates, chain, made, width):
         """Follow the first `width` allowed candidates; True once a chain through one helps."""
@@ -188,6 +193,45 @@ def test_the_search_finds_what_a_scan_finds(energy, reach, fold, name):
     np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))
     assert progress.flips == flips
     assert progress.state == greedy.CONVERGED
+
+
+CROWDED = {
+    "two sheets": lambda: build(*meshes.two_sheets(16, gap=0.001)),
+    "crumpled sheet": lambda: build(*meshes.crumpled(4)),
+    "noisy sphere": lambda: build(*meshes.bumpy_sphere(24, bump=0.9)),
+}
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("name", CROWDED)
+@pytest.mark.parametrize("reach", [Reach(2, 1), Reach(3, 2)])
+def test_chains_blocked_by_cuts_are_tried_again_once_a_scan_would(reach, name):
+    kernel, descent, rank, judge = ENERGIES["willmore"]
+    rules = greedy.Rules(FREE)
+    scanned, searched, unguarded = (CROWDED[name]() for _ in range(3))
+
+    def is_blocked(mesh, h):
+        return bool(brute.blockers(mesh, h))
+
+    flips = greedy.run(descent, scanned, rules, space_of(scanned)).flips
+    for stage in dict.fromkeys((reach._replace(breadth=1), reach)):
+        rounds = 1 if stage != reach else MANY
+        flips += sum(Scan(rules, stage, rank, judge, is_blocked).run(scanned, rounds))
+    space = space_of(searched)
+    progress = variable_depth.run(kernel, descent, searched, rules, reach, space)
+    np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))
+    assert progress.flips == flips
+    assert progress.state == greedy.CONVERGED
+    search("willmore", unguarded, rules, reach)
+    assert (faces_of(unguarded) != faces_of(searched)).any()
+    # The index has followed the flips that were tried, made and taken back.
+    np.testing.assert_array_equal(space.box, _filled(searched, space).box)
+
+
+def _filled(mesh, space):
+    fresh = space._replace(box=np.full_like(space.box, np.nan))
+    spaces._fill(mesh, fresh)
+    return fresh
 
 
 def new_task(mesh, rules, reach):

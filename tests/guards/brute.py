@@ -1,0 +1,46 @@
+"""The guard against self-intersections without an index: every face is tried."""
+
+from meshlab_willmore.guards import faces
+from meshlab_willmore.mesh.build import faces_of
+from meshlab_willmore.mesh.halfedge import flip
+
+
+def copy_of(mesh):
+    return mesh._replace(
+        origin=mesh.origin.copy(),
+        twin=mesh.twin.copy(),
+        locked=mesh.locked.copy(),
+        corner=mesh.corner.copy(),
+    )
+
+
+def are_refused(vertices, corners, f, g, area_scale):
+    """Whether the faces f and g of `corners` (m, 3) cut each other, or MeshLab may say so."""
+    f, g = min(f, g), max(f, g)
+    one, other = faces.face_of(vertices, *corners[f]), faces.face_of(vertices, *corners[g])
+    common = faces.match(one, other)
+    return bool(
+        faces.cut_exactly(one, other, common) or faces.count_as_cut(one, other, common, area_scale)
+    )
+
+
+def box(points):
+    return points.min(axis=0), points.max(axis=0)
+
+
+def blockers(mesh, h, area_scale=1.0):
+    """All faces that the new faces cut; the face of `h` is among them if these cut each other."""
+    flipped = copy_of(mesh)
+    flip(flipped, h)
+    corners = faces_of(flipped)
+    boxes = mesh.vertices[corners].min(axis=1), mesh.vertices[corners].max(axis=1)
+    own, found = (int(h) // 3, int(mesh.twin[h]) // 3), set()
+    for f in own:
+        least, most = box(mesh.vertices[corners[f]])
+        near = ((boxes[0] <= most) & (boxes[1] >= least)).all(axis=1)
+        for e in near.nonzero()[0].tolist():
+            if e not in own and are_refused(mesh.vertices, corners, f, e, area_scale):
+                found.add(e)
+    if are_refused(mesh.vertices, corners, *own, area_scale):
+        found.add(own[0])
+    return found

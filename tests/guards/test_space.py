@@ -1,0 +1,186 @@
+"""The guard against self-intersections and its index, against all pairs of faces."""
+
+import numpy as np
+import pytest
+
+from meshlab_willmore.guards import space as spaces
+from meshlab_willmore.measure import self_intersections
+from meshlab_willmore.mesh.build import build, faces_of
+from meshlab_willmore.mesh.halfedge import NONE, can_flip, flip
+from meshlab_willmore.mesh.validate import to_unit_scale
+from tests import meshes, solids
+from tests.guards import brute
+
+GIANT = [(9.0, 9.0, 0.1), (-9.0, 9.0, 0.0), (0.0, -19.0, 0.2)]
+
+
+def on_a_line():
+    vertices, faces = meshes.bumpy_sphere(20)
+    return np.outer(np.random.default_rng(0).integers(0, 40, len(vertices)), (1.0, 2.0, 3.0)), faces
+
+
+def tilted():
+    vertices, faces = meshes.patch(60, height=0.0)
+    matrix, _ = np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))
+    return vertices @ matrix, faces
+
+
+MESHES = {
+    "noisy sphere": lambda: meshes.bumpy_sphere(60, bump=0.6),
+    "patch": lambda: meshes.patch(60),
+    "flat patch": lambda: meshes.patch(60, height=0.0),
+    "tilted patch": tilted,
+    "flat grid": lambda: meshes.grid(6, 6),
+    "two sheets": lambda: meshes.two_sheets(40),
+    "crumpled sheet": lambda: meshes.crumpled(7),
+    "torus": lambda: meshes.torus(60, None, 1),
+    "cut by a giant face": lambda: meshes.with_giant_face(*meshes.bumpy_sphere(40), GIANT),
+    "tiny, with a giant face": lambda: meshes.with_giant_face(
+        *(x * s for x, s in zip(meshes.bumpy_sphere(40), (1e-6, 1), strict=True)), GIANT
+    ),
+    "on a line": on_a_line,
+    "coincident": lambda: (np.ones((30, 3)), meshes.bumpy_sphere(30)[1]),
+    "bow tie": meshes.bow_tie,
+    "fin": lambda: meshes.fin()[:2],
+}
+
+
+def unit_mesh(vertices, faces):
+    scaled, exponent = to_unit_scale(np.asarray(vertices, float), faces)
+    return build(scaled, faces), exponent
+
+
+def shuffle(mesh, space, count, rng):
+    """Make random flips, and let the index follow."""
+    for h in rng.integers(0, len(mesh.origin), count):
+        if mesh.twin[h] != NONE and can_flip(mesh, h):
+            flip(mesh, h)
+            spaces.follow(mesh, space, h)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("name", MESHES)
+def test_the_index_finds_what_all_pairs_tell(name):
+    mesh, exponent = unit_mesh(*MESHES[name]())
+    space = spaces.space_of(mesh, exponent)
+    rng = np.random.default_rng(0)
+    for flips in (0, 30, 200):
+        shuffle(mesh, space, flips, rng)
+        before = brute.copy_of(mesh)
+        for h in np.flatnonzero(mesh.twin != NONE)[::3]:
+            if not can_flip(mesh, h):
+                continue
+            blocking = brute.blockers(mesh, h, space.area_scale)
+            found = int(spaces.blocker(mesh, space, h))
+            assert (found in blocking) if blocking else (found == NONE)
+            assert bool(spaces.cuts(mesh, space, h)) == bool(blocking)
+        np.testing.assert_array_equal(mesh.origin, before.origin)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("name", MESHES)
+def test_cutting_faces_are_those_of_clipping(name):
+    vertices, faces = MESHES[name]()
+    mesh = build(np.asarray(vertices, float), faces)
+    for flips in (0, 100):
+        shuffle(mesh, spaces.no_space(), flips, np.random.default_rng(1))
+        marked = self_intersections(vertices, faces_of(mesh))
+        wanted = solids.cutting_faces(vertices, faces_of(mesh))
+        assert set(np.flatnonzero(marked).tolist()) == wanted
+
+
+@pytest.mark.parametrize("name", MESHES)
+def test_boxes_follow_the_flips(name):
+    mesh, _ = unit_mesh(*MESHES[name]())
+    space = spaces.space_of(mesh)
+    shuffle(mesh, space, 200, np.random.default_rng(2))
+    followed = space.box.copy()
+    spaces._fill(mesh, space)
+    np.testing.assert_array_equal(followed, space.box)
+    corners = mesh.vertices[faces_of(mesh)]
+    np.testing.assert_array_equal(space.box[0, :3], corners.min(axis=(0, 1)))
+    np.testing.assert_array_equal(space.box[0, 3:], corners.max(axis=(0, 1)))
+
+
+def test_boxes_follow_flips_and_the_way_back():
+    mesh, _ = unit_mesh(*meshes.bumpy_sphere(50))
+    space = spaces.space_of(mesh)
+    before, changes = space.box.copy(), 0
+    for h in range(len(mesh.origin)):
+        if not can_flip(mesh, h):
+            continue
+        flip(mesh, h)
+        spaces.follow(mesh, space, h)
+        changes += (space.box != before).any()
+        for _ in range(3):
+            flip(mesh, h)
+        spaces.follow(mesh, space, h)
+        np.testing.assert_array_equal(space.box, before)
+    assert changes > 10
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4, 5, 8, 9, 31, 64, 65, 1000])
+def test_every_face_has_a_leaf_of_few(count):
+    vertices, faces = meshes.grid(25, 20)
+    mesh = build(vertices, faces[:count])
+    space = spaces.space_of(mesh)
+    assert sorted(space.order.tolist()) == list(range(count))
+    leaves = (len(space.box) + 1) // 2
+    sizes = np.bincount(space.leaf, minlength=leaves)
+    assert sizes.max() <= spaces.LEAF_FACES
+    assert sizes.max() - sizes.min() <= 1
+    seen = [space.order[slice(*spaces.faces_at(space, leaves - 1 + x))] for x in range(leaves)]
+    for leaf, members in enumerate(seen):
+        assert (space.leaf[members] == leaf).all()
+    assert sum(map(len, seen)) == count
+
+
+def test_the_index_is_small_and_splits_by_place():
+    vertices, faces = meshes.torus(4000, 0.3, 1)
+    mesh, _ = unit_mesh(vertices, faces)
+    space = spaces.space_of(mesh)
+    assert sum(array.nbytes for array in space[2:]) <= 60 * len(faces)
+    # Leaves of neighbours: their boxes are small.
+    leaves = space.box[len(space.box) // 2 :]
+    assert np.median((leaves[:, 3:] - leaves[:, :3]).max(axis=1)) < 0.2
+
+
+def test_one_huge_face_costs_little():
+    """A query next to it looks at a few leaves, not at all."""
+    vertices, faces = meshes.bumpy_sphere(2000)
+    vertices, faces = meshes.with_giant_face(vertices * 1e-6, faces, GIANT)
+    mesh, _ = unit_mesh(vertices, faces)
+    space = spaces.space_of(mesh)
+    visited = []
+    for f in range(0, len(faces) - 1, 100):
+        box = spaces.box_of(spaces.face_at(mesh, f))
+        node, leaves = spaces.next_leaf(space, 0, box), 0
+        while node != NONE:
+            leaves += 1
+            node = spaces.next_leaf(space, spaces.after(node), box)
+        visited.append(leaves)
+    assert min(visited) >= 1
+    assert np.mean(visited) < 30
+
+
+def test_a_walk_meets_every_leaf_once_in_order():
+    mesh, _ = unit_mesh(*meshes.bumpy_sphere(200))
+    space = spaces.space_of(mesh)
+    everything = (-np.inf,) * 3 + (np.inf,) * 3
+    node, walked = spaces.next_leaf(space, 0, everything), []
+    while node != NONE:
+        walked.append(int(node))
+        node = spaces.next_leaf(space, spaces.after(node), everything)
+    leaves = (len(space.box) + 1) // 2
+    assert walked == list(range(leaves - 1, 2 * leaves - 1))
+
+
+def test_without_a_guard_nothing_is_refused():
+    mesh, _ = unit_mesh(*meshes.crumpled(4))
+    space = spaces.no_space()
+    assert not any(len(array) for array in space[2:])
+    for h in range(len(mesh.origin)):
+        if can_flip(mesh, h):
+            assert not spaces.cuts(mesh, space, h)
+    spaces.follow(mesh, space, 0)
+    assert not spaces.space_of(build(np.empty((0, 3)), np.empty((0, 3), np.int32))).active

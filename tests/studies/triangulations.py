@@ -146,7 +146,7 @@ def extrinsic_curvature(mesh):
 
 @jit
 def totals(mesh):
-    """Area, sum |K|, extrinsic curvature, M, and W (in the form of the objective) of a mesh."""
+    """Area, absolute Gaussian and extrinsic curvature, M, and W (as the objective) of a mesh."""
     return (
         area.total(mesh),
         gaussian_curvature.total(mesh),
@@ -156,7 +156,7 @@ def totals(mesh):
     )
 
 
-TOTALS = ["area", "sum |K|", "extrinsic", "M", "W"]
+TOTALS = ["area", "abs K", "extrinsic", "M", "W"]
 
 
 @jit

@@ -1,9 +1,9 @@
 """What minimises what on the paper's cube? Prints the tables of docs/cube.md.
 
 Run by hand, from the top of the repository; the number says from how many triangulations the
-search beyond the cube's own edges goes on (20,000 take some ten minutes, 500 half a minute):
+search beyond the cube's own edges goes on (5,000 take some ten minutes):
 
-    python -m tests.studies.cube 20000
+    python -m tests.studies.cube 5000
 """
 
 import sys
@@ -40,6 +40,7 @@ SEARCHES = ["greedy", "variable depth"]
 STEP = 0.0025
 DEEPEST = 0.5
 FANS = [FAN] * 6
+NEAR_FANS = 300
 # Totals of one triangulation, summed in different orders, agree up to this.
 SAME = 1e-9
 
@@ -149,6 +150,22 @@ def where_it_changes():
         last = kind
 
 
+def where_fans_stop():
+    """Rows for the totals that the fans have least: up to which push flips of cube edges say so."""
+    for name in ("extrinsic", "M"):
+        shallow, deep = PUSHES[0], DEEPEST
+        while deep - shallow > STEP:
+            middle = (shallow + deep) / 2.0
+            vertices, _ = cube(middle)
+            faces = faces_of_ways(FANS)
+            least = totals(build(vertices, faces))[TOTALS.index(name)] - SAME
+            if best_first(vertices, [faces], name, NEAR_FANS).value > least:
+                shallow = middle
+            else:
+                deep = middle
+        yield [name, f"{shallow:.3f}"]
+
+
 def main(limit):
     for title, head, rows in (
         ("Descents", ["push", "energy", "search", "flips", *TOTALS, "cut"], descents()),
@@ -162,6 +179,7 @@ def main(limit):
             ["from push", "flips", "valences", *TOTALS, "area of fans", "cut"],
             where_it_changes(),
         ),
+        ("Up to where the fans are least", ["total", "up to push"], where_fans_stop()),
         (
             f"Flips of any edge, {limit} triangulations left",
             ["push", "total", "of 5^6", "least", "valences", "cut", "least uncut", "valences"],

@@ -119,7 +119,7 @@ def test_the_paper_s_cube_wherever_the_virtual_points_are(place):
 
 @pytest.mark.parametrize("search", ["greedy", HEAVY_DEPTH])
 def test_the_virtual_points_reach_the_search(search):
-    vertices, faces = meshes.torus(200, None, 1)
+    vertices, faces = meshes.torus(120, None, 1)
 
     def flip(place, energy="virtual willmore"):
         return optimize_flips(

@@ -25,6 +25,7 @@ from .virtual_at import spokes_at
 
 # In parts of the diagonal.
 MARGIN = 0.1
+MIDDLE = 0.5
 # Squared sine of the angle between diagonals below which they count as parallel: up to there the
 # closest points are good to half of the digits.
 PARALLEL = 1e-16
@@ -39,8 +40,11 @@ def _inside(place):
 @jit
 def _beside_each_other(u, w, r):
     """Return the places of the virtual points on parallel diagonals, given as in `closest`."""
-    squared = dot(u, u)
-    start, step = dot(r, u) / squared, dot(w, u) / squared
+    squared, along = dot(u, u), dot(w, u)
+    if squared == 0.0 or along == 0.0:
+        # One has no length: no flip comes of that, wherever the points are.
+        return MIDDLE, MIDDLE
+    start, step = dot(r, u) / squared, along / squared
     one, other = start + MARGIN * step, start + (1.0 - MARGIN) * step
     low, high = max(MARGIN, min(one, other)), min(1.0 - MARGIN, max(one, other))
     middle = 0.5 * (low + high)

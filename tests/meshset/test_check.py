@@ -12,6 +12,10 @@ from meshlab_willmore.mlx.steps import Fault, Param, Percentage, ScriptError, St
 from tests.meshset.conftest import FLIP, set_of
 
 FLIP_NAME = "Willmore flipping optimization"
+ENERGIES = (
+    "0 'virtual willmore', 1 'willmore', 2 'uniform virtual willmore', 3 'area', "
+    "4 'mean curvature', 5 'gaussian curvature', 6 'delaunay'"
+)
 REMESH = "Remeshing: Isotropic Explicit Remeshing"
 REMESH_PARAMS = (
     "Iterations, Adaptive, SelectedOnly, TargetLen, FeatureDeg, CheckSurfDist, MaxSurfDist, "
@@ -183,9 +187,9 @@ CORPUS = [
     ),
     # choices
     broken(
-        f"step 1 ({FLIP_NAME}), parameter 'energy': there is no choice 2; the choices are "
-        "0 'virtual willmore', 1 'willmore'",
-        step(FLIP_NAME, energy(2)),
+        f"step 1 ({FLIP_NAME}), parameter 'energy': there is no choice 7; the choices are "
+        f"{ENERGIES}",
+        step(FLIP_NAME, energy(7)),
     ),
     broken(
         "step 1 (Planar flipping optimization), parameter 'planartype': there is no choice 5; the "
@@ -202,9 +206,9 @@ CORPUS = [
         step(FLIP_NAME, energy(0, "willmore", "virtual willmore")),
     ),
     broken(
-        f"step 1 ({FLIP_NAME}), parameter 'energy': there is no choice 'area'; the choices are "
-        "0 'virtual willmore', 1 'willmore'",
-        old_step(FLIP_NAME, energy="area"),
+        f"step 1 ({FLIP_NAME}), parameter 'energy': there is no choice 'volume'; the choices are "
+        f"{ENERGIES}",
+        old_step(FLIP_NAME, energy="volume"),
     ),
     # ranges of ours
     broken(
@@ -338,8 +342,8 @@ def test_a_filter_whose_plugin_is_not_loaded(monkeypatch):
             "can't be a percentage: a RichFloat has no range; give a number",
         ),
         (
-            Param("energy", "RichEnum", "area"),
-            "there is no choice 'area'; the choices are 0 'virtual willmore', 1 'willmore'",
+            Param("energy", "RichEnum", "volume"),
+            f"there is no choice 'volume'; the choices are {ENERGIES}",
         ),
     ],
 )
@@ -455,7 +459,7 @@ DEFAULTS = {
     "RichFloat": 0.5,
     "RichDynamicFloat": 0.5,
     "RichAbsPerc": Percentage(1.0),
-    "RichString": "x",
+    "RichString": "0.5",
     "RichOpenFile": "x",
     "RichSaveFile": "x",
     "RichPosition": (0.0, 1.0, 2.0),

@@ -2,6 +2,7 @@ import numpy as np
 import pymeshlab
 import pytest
 
+from meshlab_willmore.meshset.flips import ENERGIES
 from meshlab_willmore.meshset.parameters import Parameter, ParameterTypeError, read_all
 from tests.meshset.conftest import FLIP
 
@@ -78,9 +79,8 @@ def test_enum_name_errors_are_those_of_native_filters(bumpy):
     native = _error_of(lambda: bumpy.filter_parameter_values(NATIVE, planartype="nope"))
     ours = _error_of(lambda: bumpy.apply_filter(FLIP, energy="nope"))
     assert type(ours) is type(native) is pymeshlab.InvalidEnumException
-    values = "'virtual willmore'; 'willmore'; "
     assert str(native).split("values are")[0] == str(ours).split("values are")[0]
-    assert str(ours).endswith(values)
+    assert str(ours).endswith("values are " + "".join(f"'{name}'; " for name in ENERGIES))
 
 
 def test_unknown_keyword_errors_are_those_of_native_filters(bumpy):
@@ -93,3 +93,20 @@ def test_unknown_keyword_errors_are_those_of_native_filters(bumpy):
 def test_defaults_and_given_values_together():
     values = read_all("f", ALL, {"kind": "a", "count": 7}, None)
     assert values == {"flag": False, "count": 7, "angle": 90.0, "kind": 0}
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [("midpoint", "midpoint"), (0.1, "0.1"), (np.float32(0.5), "0.5"), (1, "1.0"), ("", "")],
+)
+def test_a_text_may_stand_for_a_number(value, text):
+    parameter = Parameter("place", str, "midpoint", "Place", "Where.")
+    assert parameter.read(value) == text
+    assert parameter.default_for(None) == "midpoint"
+
+
+@pytest.mark.parametrize("value", [True, None, [0.5], b"midpoint", 1j])
+def test_what_no_text_is(value):
+    parameter = Parameter("place", str, "midpoint", "Place", "Where.")
+    with pytest.raises(ParameterTypeError, match="place.*a text or a number is expected"):
+        parameter.read(value)

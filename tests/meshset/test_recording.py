@@ -99,7 +99,9 @@ def test_a_saved_script_gives_the_same_meshes_to_the_last_bit(chain, tmp_path, c
 
 def test_steps_are_recorded_in_their_order_with_all_parameters(bumpy, tmp_path):
     bumpy.apply_coord_taubin_smoothing()
-    bumpy.meshing_edge_flip_by_willmore_optimization(energy="willmore", maxflips=7)
+    bumpy.meshing_edge_flip_by_willmore_optimization(
+        energy="willmore", maxflips=7, virtualpoint=0.25
+    )
     bumpy.get_geometric_measures()
     bumpy.get_willmore_measures()
     path = tmp_path / "script.mlx"
@@ -112,8 +114,14 @@ def test_steps_are_recorded_in_their_order_with_all_parameters(bumpy, tmp_path):
         "selection": ("RichBool", False),
         "energy": ("RichEnum", 1),
         "search": ("RichEnum", 0),
+        "depth": ("RichInt", 5),
+        "breadth": ("RichInt", 3),
+        "sweeps": ("RichInt", 200),
+        "seed": ("RichInt", 0),
+        "virtualpoint": ("RichString", "0.25"),
         "monotone": ("RichBool", True),
         "foldangle": ("RichFloat", 90.0),
+        "checkintersections": ("RichBool", False),
         "featuredeg": ("RichFloat", 180.0),
         "maxflips": ("RichInt", 7),
         "allowloss": ("RichBool", False),

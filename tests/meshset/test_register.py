@@ -78,13 +78,19 @@ def test_search_still_finds_native_filters(capfd):
 
 
 def test_filter_parameter_values(bumpy):
-    values = bumpy.filter_parameter_values(FLIP, energy="willmore", maxflips=3)
+    values = bumpy.filter_parameter_values(FLIP, energy="willmore", maxflips=3, virtualpoint=0.1)
     assert values == {
         "selection": False,
         "energy": 1,
         "search": 0,
+        "depth": 5,
+        "breadth": 3,
+        "sweeps": 200,
+        "seed": 0,
+        "virtualpoint": "0.1",
         "monotone": True,
         "foldangle": 90.0,
+        "checkintersections": False,
         "featuredeg": 180.0,
         "maxflips": 3,
         "allowloss": False,

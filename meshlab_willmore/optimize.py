@@ -71,7 +71,7 @@ class FlipResult(NamedTuple):
         coordinates' unit times radians for "mean curvature", its square for "area", none for
         "delaunay"). That is what the energy has dropped by, but for "virtual willmore", which is no
         function of the mesh; there it may be negative where chains of flips are judged by the
-        Willmore energy.
+        Willmore energy, and for "annealing" and "thorough" it is the drop of that.
     willmore_before, willmore_after : float
         Willmore energy of the mesh, as `meshlab_willmore.measure.willmore_energy` gives it: summed
         over interior vertices. On a mesh with a boundary it leaves out what the edges carry at
@@ -158,10 +158,11 @@ def optimize_flips(
         energy, that energy decides where a chain goes, and the Willmore energy whether it helps.
         "annealing": greedy first, then random flips that may go through a loss, the less so the
         colder it gets, then greedy again; never worse than "greedy", but seldom worth it: "variable
-        depth" gets lower in the same time, and on large meshes far lower. "thorough": "variable depth"
-        from several starts, the mesh itself and what greedy flips along other energies make of it;
-        the best of these counts, so it is never worse than "variable depth". For these two, the
-        Willmore energy says what is better where the virtual one is chosen.
+        depth" gets lower in the same time, and on large meshes far lower. "thorough": the search
+        "variable depth" from several starts, which are the mesh itself and what greedy flips along
+        other energies make of it; the best of these counts, so it is never worse than "variable
+        depth". For these two, the Willmore energy says what is better where the virtual one is
+        chosen.
     depth : int
         Most flips of a chain, 1 to 100. Only for "variable depth" and "thorough".
     breadth : int

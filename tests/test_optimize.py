@@ -77,6 +77,8 @@ def test_signature_is_the_promised_one():
         "search": "greedy",
         "depth": 5,
         "breadth": 3,
+        "sweeps": 200,
+        "seed": 0,
         "monotone": True,
         "foldangle": 90.0,
         "featuredeg": 180.0,

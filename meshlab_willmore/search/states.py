@@ -81,4 +81,5 @@ def finish(kernels, mesh, state):
     """Bring `mesh`, the start, in place to a state; return the way as Progress."""
     before = kernels.total(mesh)
     assign(mesh, state.mesh)
-    return Progress(len(mesh.origin), state.flips, before - kernels.total(mesh), state.state)
+    drop = float(before - kernels.total(mesh))
+    return Progress(len(mesh.origin), state.flips, drop, state.state)

@@ -608,6 +608,7 @@ def test_non_manifold_edges_stay():
         ({"virtualpoint": 2, "energy": "willmore"}, ValueError, "number between 0 and 1, not 2.0"),
         ({"monotone": 1}, TypeError, "monotone"),
         ({"foldangle": -1.0}, ValueError, "foldangle"),
+        ({"checkintersections": "yes"}, TypeError, "checkintersections must be True or False"),
         ({"featuredeg": 181}, ValueError, "featuredeg"),
         ({"featuredeg": "sharp"}, TypeError, "featuredeg"),
         ({"maxflips": -1}, ValueError, "maxflips"),

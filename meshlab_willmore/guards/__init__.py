@@ -1,4 +1,8 @@
-"""Which flips are allowed beyond what the connectivity says: locks and the fold guard."""
+"""Which flips are allowed beyond what the connectivity says.
+
+Locks, set once for the input; the fold guard; and, in `space`, the guard against
+self-intersections, with what it stands on: `predicates`, `triangles`, `rounded`, `faces`.
+"""
 
 from .fold import (
     FLAT_ANGLE,

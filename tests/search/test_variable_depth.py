@@ -195,10 +195,11 @@ def test_the_search_finds_what_a_scan_finds(energy, reach, fold, name):
     assert progress.state == greedy.CONVERGED
 
 
+# Meshes on which the guard has something to do.
 CROWDED = {
-    "two sheets": lambda: build(*meshes.two_sheets(16, gap=0.001)),
-    "crumpled sheet": lambda: build(*meshes.crumpled(4)),
-    "noisy sphere": lambda: build(*meshes.bumpy_sphere(24, bump=0.9)),
+    "crumpled sheet": lambda: build(*meshes.crumpled(4, noise=0.7)),
+    "two sheets": lambda: build(*meshes.two_sheets(24, 1, gap=0.001)),
+    "noisy sphere": lambda: build(*meshes.bumpy_sphere(30, bump=0.95)),
 }
 
 

@@ -103,6 +103,8 @@ def test_the_queue_finds_what_a_scan_finds(energy, fold, monotone, name):
 # Meshes on which the guard has something to do for every energy and rule.
 CROWDED = {
     "crumpled sheet": meshes.crumpled(4, noise=0.7),
+    # Here an edge is blocked, and freed again.
+    "freed": meshes.crumpled(4, 137, noise=0.9),
     "noisy sphere": meshes.bumpy_sphere(30, bump=0.95),
     "cut by a giant face": meshes.with_giant_face(
         *meshes.bumpy_sphere(30, 3, bump=0.6), [(9, 9, 0.1), (-9, 9, 0), (0, -19, 0.2)]

@@ -13,7 +13,8 @@ from .energy.gaussian_curvature import angle_defects
 from .energy.triangles import corners
 from .energy.willmore import edge_angle
 from .guards import triangle_shape
-from .guards.space import mark_cuts, space_of
+from .guards.cuts import mark_cuts
+from .guards.space import space_of
 from .mesh.build import build, interior_vertices
 from .mesh.jit import jit
 from .mesh.validate import check_mesh, in_input_units, to_unit_scale

@@ -25,7 +25,7 @@ from .mesh.validate import (
     in_input_units,
     to_unit_scale,
 )
-from .search import annealing, greedy, thorough, variable_depth
+from .search import annealing, chains, greedy, thorough, variable_depth
 from .search.kernels import AT, KERNELS, PLACED_KERNELS
 
 SEARCHES = ("greedy", "variable depth", "annealing", "thorough")
@@ -241,9 +241,9 @@ def optimize_flips(
     rules = _rules(monotone, foldangle, maxflips)
     if not isinstance(place, str):
         rules, place = rules._replace(virtualpoint=place), AT
-    reach = variable_depth.Reach(
+    reach = chains.Reach(
         check_count("depth", depth, MOST_DEPTH),
-        check_count("breadth", breadth, variable_depth.RING),
+        check_count("breadth", breadth, chains.RING),
     )
     schedule = annealing.Schedule(
         check_count("sweeps", sweeps, MOST_SWEEPS), check_seed("seed", seed)

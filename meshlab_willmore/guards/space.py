@@ -1,23 +1,19 @@
-"""The guard against self-intersections, with an index of the faces that follows the flips.
+"""Where the faces of a mesh are: an index that follows the flips.
 
-A flip is refused if one of its two new faces would cut any other face of the mesh, or both would
-cut each other. Cuts that the mesh has already may stay or go: their number never grows.
-
-**The index** is a perfect binary tree of boxes. Its leaves hold a few faces each, split by the
-median of their middles along the longest side, once for the input. A flip changes two faces within
-the outline of their quad, and faces keep their leaves: only the boxes from these two leaves up to
-the first one that stays as it was are computed again. So all arrays keep their size, and one huge
-face, or all points on a line, do no harm. The tree stands in an array, node p over 2 p + 1 and
-2 p + 2, and is walked without a stack.
+A perfect binary tree of boxes. Its leaves hold a few faces each, split by the median of their
+middles along the longest side, once for the input. A flip changes two faces within the outline of
+their quad, and faces keep their leaves: only the boxes from these two leaves up to the first one
+that stays as it was are computed again. So all arrays keep their size, and one huge face, or all
+points on a line, do no harm. The tree stands in an array, node p over 2 p + 1 and 2 p + 2, and is
+walked without a stack.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from ..mesh.halfedge import NONE, apex
+from ..mesh.halfedge import NONE
 from ..mesh.jit import jit
-from .faces import count_as_cut, cut_exactly, face_of, from_corner, match
 
 # Faces in a leaf: half as many up to as many. More cost more tests, fewer cost memory.
 LEAF_FACES = 4
@@ -228,32 +224,6 @@ def follow(mesh, space, h):
 
 
 @jit
-def box_around(a, b, c, d):
-    """Return least x, y, z and largest x, y, z of four points."""
-    return (
-        min(a.x, b.x, c.x, d.x),
-        min(a.y, b.y, c.y, d.y),
-        min(a.z, b.z, c.z, d.z),
-        max(a.x, b.x, c.x, d.x),
-        max(a.y, b.y, c.y, d.y),
-        max(a.z, b.z, c.z, d.z),
-    )
-
-
-@jit
-def boxes_meet(one, other):
-    """Tell whether two closed boxes share a point."""
-    return (
-        one[0] <= other[3]
-        and one[1] <= other[4]
-        and one[2] <= other[5]
-        and other[0] <= one[3]
-        and other[1] <= one[4]
-        and other[2] <= one[5]
-    )
-
-
-@jit
 def next_leaf(space, node, box):
     """Return the first node from `node` on, in the order of the tree, that is a leaf in reach.
 
@@ -296,108 +266,3 @@ def faces_at(space, node):
     inner = len(space.box) // 2
     faces, leaf = len(space.order), node - inner
     return _start(leaf, faces, inner + 1), _start(leaf + 1, faces, inner + 1)
-
-
-@jit
-def face_at(mesh, f):
-    """Return the face `f` as it is now."""
-    return face_of(
-        mesh.vertices, mesh.origin[3 * f], mesh.origin[3 * f + 1], mesh.origin[3 * f + 2]
-    )
-
-
-@jit
-def box_of(face):
-    """Return the box of a face."""
-    return box_around(face.a, face.b, face.c, face.c)
-
-
-@jit
-def _are_refused(one, f, other, g, area_scale):
-    """Tell whether the faces `one` and `other`, with the numbers f and g, count as cut."""
-    if f > g:
-        one, other = other, one
-    common = match(one, other)
-    return count_as_cut(one, other, common, area_scale) or cut_exactly(one, other, common)
-
-
-@jit
-def _new_faces(mesh, h):
-    """Return the two faces that the flip of `h` makes, each with its corners in their places."""
-    t = mesh.twin[h]
-    i, j, k, l = mesh.origin[h], mesh.origin[t], apex(mesh, h), apex(mesh, t)
-    # In its face, h goes from l to k afterwards, and t back.
-    one, other = face_of(mesh.vertices, l, k, i), face_of(mesh.vertices, k, l, j)
-    return from_corner(one, (3 - h % 3) % 3), from_corner(other, (3 - t % 3) % 3)
-
-
-@jit
-def _first_cut(mesh, space, new, f, other):
-    """Return a face that `new`, which is to be face f, cuts, or `NONE`; leave out f and `other`."""
-    box = box_of(new)
-    node = next_leaf(space, 0, box)
-    while node != NONE:
-        start, stop = faces_at(space, node)
-        for place in range(start, stop):
-            e = np.int64(space.order[place])
-            if e in (f, other):
-                continue
-            near = face_at(mesh, e)
-            if boxes_meet(box_of(near), box) and _are_refused(new, f, near, e, space.area_scale):
-                return e
-        node = next_leaf(space, after(node), box)
-    return NONE
-
-
-@jit
-def blocker(mesh, space, h):
-    """Return a face that the flip of `h` would make a new face cut.
-
-    Parameters
-    ----------
-    mesh : Mesh
-    space : Space
-        Active, and up to date with the mesh.
-    h : int
-        Half-edge that `can_flip` allows.
-
-    Returns
-    -------
-    int
-        `NONE` if there is none: the flip may be made. The face of `h` if the two new faces would
-        cut each other. As long as this face and the two at `h` stay, the answer stays.
-    """
-    f, g = np.int64(h // 3), np.int64(mesh.twin[h] // 3)
-    one, other = _new_faces(mesh, h)
-    if _are_refused(one, f, other, g, space.area_scale):
-        return f
-    found = _first_cut(mesh, space, one, f, g)
-    return found if found != NONE else _first_cut(mesh, space, other, g, f)
-
-
-@jit
-def cuts(mesh, space, h):
-    """Tell whether the flip of `h` is refused, as `blocker` does; never if nothing is active."""
-    return space.active and blocker(mesh, space, h) != NONE
-
-
-@jit
-def mark_cuts(mesh, space, marked, start, stop):
-    """Mark, in place, faces that cut others, by the exact tests alone.
-
-    Looks at the pairs of a face from `start` up to `stop` and a face of a higher number.
-    """
-    for f in range(start, stop):
-        one = face_at(mesh, f)
-        box = box_of(one)
-        node = next_leaf(space, 0, box)
-        while node != NONE:
-            first, last = faces_at(space, node)
-            for place in range(first, last):
-                e = np.int64(space.order[place])
-                if e <= f or (marked[e] and marked[f]):
-                    continue
-                near = face_at(mesh, e)
-                if boxes_meet(box_of(near), box) and cut_exactly(one, near, match(one, near)):
-                    marked[e] = marked[f] = True
-            node = next_leaf(space, after(node), box)

@@ -31,6 +31,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .. import guards
+from ..guards import cuts
 from ..guards import space as spaces
 from ..guards.space import Space
 from ..mesh.halfedge import NONE, Mesh, flip, is_free, makes_new_edge
@@ -143,7 +144,7 @@ def advance(task, walk, draws, temperature, judge):
         # A cost reduction of minus infinity never passes.
         if not (gain >= 0.0 or draws[s, 1] < np.exp(gain / temperature)):
             continue
-        if not may_flip(mesh, h, rules) or spaces.cuts(mesh, task.space, h):
+        if not may_flip(mesh, h, rules) or cuts.would_cut(mesh, task.space, h):
             continue
         if flips == rules.maxflips:
             state = STOPPED

@@ -35,6 +35,7 @@ import numpy as np
 
 from .. import guards
 from ..energy import willmore
+from ..guards import cuts
 from ..guards import space as spaces
 from ..guards.space import Space
 from ..mesh.halfedge import (
@@ -228,7 +229,7 @@ def _is_blocked(task, h):
     """Tell whether a new face would cut another one, and if so, wait until that changes."""
     if not task.space.active:
         return False
-    face = spaces.blocker(task.mesh, task.space, h)
+    face = cuts.blocker(task.mesh, task.space, h)
     if face == NONE:
         return False
     wait(task.waiting, h, face)

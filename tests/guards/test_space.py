@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from meshlab_willmore.guards import cuts
 from meshlab_willmore.guards import space as spaces
 from meshlab_willmore.measure import self_intersections
 from meshlab_willmore.mesh.build import build, faces_of
@@ -71,9 +72,9 @@ def test_the_index_finds_what_all_pairs_tell(name):
             if not can_flip(mesh, h):
                 continue
             blocking = brute.blockers(mesh, h, space.area_scale)
-            found = int(spaces.blocker(mesh, space, h))
+            found = int(cuts.blocker(mesh, space, h))
             assert (found in blocking) if blocking else (found == NONE)
-            assert bool(spaces.cuts(mesh, space, h)) == bool(blocking)
+            assert bool(cuts.would_cut(mesh, space, h)) == bool(blocking)
         np.testing.assert_array_equal(mesh.origin, before.origin)
 
 
@@ -153,7 +154,7 @@ def test_one_huge_face_costs_little():
     space = spaces.space_of(mesh)
     visited = []
     for f in range(0, len(faces) - 1, 100):
-        box = spaces.box_of(spaces.face_at(mesh, f))
+        box = cuts.box_of(cuts.face_at(mesh, f))
         node, leaves = spaces.next_leaf(space, 0, box), 0
         while node != NONE:
             leaves += 1
@@ -181,6 +182,6 @@ def test_without_a_guard_nothing_is_refused():
     assert not any(len(array) for array in space[2:])
     for h in range(len(mesh.origin)):
         if can_flip(mesh, h):
-            assert not spaces.cuts(mesh, space, h)
+            assert not cuts.would_cut(mesh, space, h)
     spaces.follow(mesh, space, 0)
     assert not spaces.space_of(build(np.empty((0, 3)), np.empty((0, 3), np.int32))).active

@@ -16,7 +16,7 @@ from meshlab_willmore import (
     willmore_energy,
 )
 from meshlab_willmore.meshset import flips, scalars
-from meshlab_willmore.search import variable_depth
+from meshlab_willmore.search import chains
 from tests import meshes
 from tests.meshset.conftest import FLIP, SAMPLES, random_transform, set_of
 
@@ -54,7 +54,7 @@ def test_choices_and_limits_are_those_of_the_core():
     assert flips.SEARCHES == optimize.SEARCHES
     assert flips.PLACES == optimize.PLACES
     assert flips.MOST_DEPTH == optimize.MOST_DEPTH
-    assert flips.MOST_BREADTH == variable_depth.RING
+    assert flips.MOST_BREADTH == chains.RING
     assert flips.MOST_SWEEPS == optimize.MOST_SWEEPS
     core = inspect.signature(optimize_flips).parameters
     for parameter in flips.FLIPS.parameters:

@@ -6,9 +6,9 @@ import pytest
 from meshlab_willmore.energy import willmore
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.search import greedy, states, thorough, variable_depth
+from meshlab_willmore.search.chains import Reach
 from meshlab_willmore.search.kernels import KERNELS
 from meshlab_willmore.search.thorough import Prelude
-from meshlab_willmore.search.variable_depth import Reach
 from tests import meshes, reference
 from tests.search.ways import (
     FREE,

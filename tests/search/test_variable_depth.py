@@ -13,8 +13,9 @@ from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import NONE, apex, can_flip, flip, following, previous
 from meshlab_willmore.mesh.jit import generic, jit
 from meshlab_willmore.mesh.points import norm, point, subtract
-from meshlab_willmore.search import entries, greedy, variable_depth
-from meshlab_willmore.search.variable_depth import Reach
+from meshlab_willmore.search import chains, entries, greedy, variable_depth
+from meshlab_willmore.search import pending as pending_queue
+from meshlab_willmore.search.chains import Reach
 from tests import meshes, reference
 from tests.guards import brute
 
@@ -237,13 +238,13 @@ def _filled(mesh, space):
 
 def new_task(mesh, rules, reach):
     """A task with every edge in the queue."""
-    pending = variable_depth._nothing_pending(mesh)
-    variable_depth._queue_all(mesh, pending)
+    pending = pending_queue.nothing_pending(mesh)
+    pending_queue.queue_all(mesh, pending)
     touched = np.zeros(len(mesh.vertices), bool)
-    return variable_depth.Task(
+    return chains.Task(
         mesh,
         pending,
-        variable_depth._no_chain(reach),
+        chains.no_chain(reach),
         touched,
         rules,
         no_space(),
@@ -262,7 +263,7 @@ def test_what_a_chain_tries_leaves_no_trace(reach, name):
     task = new_task(mesh, greedy.Rules(FREE), reach)
     worked = 0
     for h in np.flatnonzero(mesh.twin != NONE):
-        best, work = variable_depth.find_chain(task, h, willmore.cost_reduction, None)
+        best, work = chains.find_chain(task, h, willmore.cost_reduction, None)
         worked += work
         for changed, kept in zip(mesh, before, strict=True):
             np.testing.assert_array_equal(changed, kept)
@@ -281,13 +282,13 @@ def test_what_a_chain_tries_leaves_no_trace(reach, name):
 @pytest.mark.parametrize("name", ["closed", "boundary", "shuffled"])
 def test_the_ring_is_where_cost_reductions_change(name):
     mesh = MESHES[name]()
-    ring = np.empty(variable_depth.RING, np.int32)
+    ring = np.empty(chains.RING, np.int32)
     for h in np.flatnonzero(mesh.twin > np.arange(len(mesh.twin)))[::7]:
         if not can_flip(mesh, h):
             continue
         flipped = copy_of(mesh)
         flip(flipped, h)
-        there = {ends(flipped, x) for x in ring[: variable_depth.ring_around(flipped, h, ring)]}
+        there = {ends(flipped, x) for x in ring[: chains.ring_around(flipped, h, ring)]}
         gains = [
             {ends(m, x): virtual.cost_reduction(m, x) for x in np.flatnonzero(m.twin != NONE)}
             for m in (mesh, flipped)
@@ -340,7 +341,7 @@ def test_deeper_is_never_worse_than_greedy_and_a_minimum(energy, name):
     task = new_task(mesh, rules, reach)
     for h in np.flatnonzero(mesh.twin != NONE):
         if h < mesh.twin[h]:
-            assert variable_depth.find_chain(task, h, rank, judge)[0][0] == 0
+            assert chains.find_chain(task, h, rank, judge)[0][0] == 0
     again = copy_of(mesh)
     state = kernel(task, greedy.Progress(0, 0, 0.0, greedy.WORKING))
     assert state == (0, 0, 0.0, greedy.CONVERGED)
@@ -428,7 +429,7 @@ def test_every_flip_of_a_chain_passes_the_fold_guard():
     task = new_task(mesh, rules, reach)
     flips = 0
     for h in np.flatnonzero(mesh.twin > np.arange(len(mesh.twin))):
-        best, _ = variable_depth.find_chain(task, h, willmore.cost_reduction, None)
+        best, _ = chains.find_chain(task, h, willmore.cost_reduction, None)
         for s in range(best[0]):
             assert can_flip(mesh, task.chain.best[s])
             assert not guards.folds(mesh, task.chain.best[s], GUARDED)
@@ -493,4 +494,4 @@ def test_the_kernel_comes_back_often_and_two_runs_are_equal():
     ],
 )
 def test_chains_branch_half_as_much_at_each_step(reach, wanted):
-    assert variable_depth._widths(reach).tolist() == wanted
+    assert chains._widths(reach).tolist() == wanted

@@ -10,7 +10,7 @@ import pytest
 from meshlab_willmore.energy import virtual, virtual_at, virtual_closest, willmore
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.search import entries, greedy, scoring, variable_depth
-from meshlab_willmore.search.variable_depth import Reach
+from meshlab_willmore.search.chains import Reach
 from tests import meshes
 from tests.search.test_greedy import FREE, GUARDED, MANY, MESHES, flips_by_scanning
 from tests.search.test_variable_depth import Scan

@@ -9,7 +9,7 @@ from . import guards
 from .energy.kinds import KINDS
 from .guards import space as spaces
 from .measure import willmore_energy_of
-from .mesh.build import build, faces_of
+from .mesh.build import build, changed_edges, faces_of
 from .mesh.halfedge import lengths_of_sides
 from .mesh.validate import (
     check_choice,
@@ -53,11 +53,8 @@ REASONS = {
 }
 MOST_DEPTH = 100
 MOST_SWEEPS = 10**9
-# What counts as a gain, for energies that are measured in lengths: this part of the usual edge,
-# and of the longest one, whose rounding would else look like gains.
-LEAST_OF_MEDIAN = 1e-7
-LEAST_OF_LONGEST = 1e-12
-RANKS_PER_TOLERANCE = 100.0
+# Cost reductions are ranked in steps of this part of the median edge, to the energy's power.
+RANK_STEP = 1e-9
 
 
 class FlipResult(NamedTuple):
@@ -68,7 +65,8 @@ class FlipResult(NamedTuple):
     faces : (m, 3) int32
         The new faces, in the slots of the old ones.
     flips : int
-        Number of flips made, those that the search took back left out.
+        Number of flips made, those that the search took back left out. With "annealing", whose
+        flips go to and fro, the number of edges that the input did not have.
     gain : float
         What the chosen energy has dropped by, in its unit: radians; the coordinates' unit times
         radians for "mean curvature", its square for "area", none for "delaunay". The energy
@@ -210,7 +208,9 @@ def optimize_flips(
     locked_edges : (e, 2) array_like of int, optional
         Vertex pairs of edges to keep.
     maxflips : int, optional
-        Stop after so many flips, or before a chain that would exceed them.
+        Stop after so many flips, or before a chain that would exceed them. With "annealing" its
+        random flips count, all of them. Every search begins with greedy flips, and ends with these
+        if the limit is reached there.
 
     Returns
     -------
@@ -274,9 +274,12 @@ def optimize_flips(
             for name in PRELUDES
         ]
         progress = thorough.run(kernels, preludes, mesh, rules, reach, space)
+    new_faces = faces_of(mesh)
+    # Random flips go to and fro: how many there were says nothing of the result.
+    flips = changed_edges(faces, new_faces) if search == "annealing" else progress.flips
     return FlipResult(
-        faces=faces_of(mesh),
-        flips=progress.flips,
+        faces=new_faces,
+        flips=flips,
         gain=in_input_units(progress.gain, exponent * kind.length_power),
         willmore_before=before,
         willmore_after=willmore_energy_of(mesh),
@@ -305,12 +308,8 @@ def _suited(rules, kind, mesh):
     )
     if not (kind.length_power and len(mesh.origin)):
         return rules
-    lengths = lengths_of_sides(mesh)
-    least = max(
-        LEAST_OF_MEDIAN * float(np.median(lengths)) ** kind.length_power,
-        LEAST_OF_LONGEST * float(lengths.max()) ** kind.length_power,
-    )
-    return rules._replace(tolerance=least, rank_step=least / RANKS_PER_TOLERANCE)
+    unit = float(np.median(lengths_of_sides(mesh))) ** kind.length_power
+    return rules._replace(tolerance=kind.least * unit, rank_step=RANK_STEP * unit)
 
 
 def _apply_locks(mesh, locks):

@@ -7,9 +7,15 @@ cache.
 import atexit
 import os
 import shutil
+import signal
 import tempfile
 
 import pytest
+
+# Started in the background (nohup, some CI), a process ignores these, and so would its children.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+if hasattr(signal, "SIGHUP"):
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 JIT_IS_OFF = os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0")
 IS_WORKER = "PYTEST_XDIST_WORKER" in os.environ

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import threading
 from collections.abc import Sequence
 from functools import cache, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -13,7 +14,7 @@ import click
 from . import playing, references, trials
 from .columns import in_columns
 from .errors import debug_option, wrong_use
-from .flip import filter_options, only
+from .flip import check_options, filter_options, only
 from .inputs import expand
 
 if TYPE_CHECKING:
@@ -95,6 +96,13 @@ def _shared_options() -> list[click.Option]:
     return [option for option in filter_options() if option.name in names]
 
 
+def _time_limit(_: click.Context, __: click.Parameter, seconds: float) -> float:
+    """The seconds, unless they are none that a timer takes."""
+    if not seconds <= threading.TIMEOUT_MAX:
+        raise wrong_use(f"--timeout: {seconds:g} is no number of seconds that can be waited")
+    return seconds
+
+
 @click.command(
     "compare",
     cls=CompareCommand,
@@ -113,6 +121,7 @@ def _shared_options() -> list[click.Option]:
 @click.option(
     "--timeout",
     type=click.FloatRange(min=0.0, min_open=True),
+    callback=_time_limit,
     default=TIMEOUT,
     show_default=True,
     metavar="SECONDS",
@@ -155,14 +164,11 @@ def command(
 def _contenders(given: dict[str, Any], peers: bool) -> list[Contender]:
     from ..compare import contenders
 
-    searches, energies = (given.pop(name) or contenders.choices(name) for name in _ROWS)
+    searches, energies = (
+        dict.fromkeys(given.pop(name) or contenders.choices(name)) for name in _ROWS
+    )
     shared = {name: value for name, value in given.items() if value is not None}
-    for parameter in contenders.parameters():
-        if parameter.check is not None and parameter.name in shared:
-            try:
-                parameter.check(parameter.name, shared[parameter.name])
-            except ValueError as error:
-                raise wrong_use(f"--{error}") from error
+    check_options(shared)
     own = contenders.ours(searches, energies, shared)
     return [contenders.INITIAL, *own, *(contenders.PEERS if peers else ())]
 

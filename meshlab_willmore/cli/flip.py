@@ -23,7 +23,7 @@ EXAMPLES = """\b
 Examples:
   meshlab-willmore flip scan.ply flipped.ply
   meshlab-willmore flip part.stl flipped.stl --featuredeg 30
-  meshlab-willmore flip scan.ply flipped.ply --energy willmore --maxflips 1000
+  meshlab-willmore flip scan.ply flipped.ply --energy willmore --search "variable depth"
   meshlab-willmore flip scan.obj flipped.ply -m vc wt --force
 """
 
@@ -73,7 +73,7 @@ def _help(parameter: Parameter) -> str:
 @click.option("--force", is_flag=True, help="Replace files that are there already.")
 @debug_option
 def command(source: str, target: Path, parts: tuple[str, ...], force: bool, **given: Any) -> None:
-    """Flip edges of the mesh IN as long as its Willmore energy falls, and save it as OUT.
+    """Flip edges of the mesh IN as long as an energy falls, and save it as OUT.
 
     Vertices never move. The ending of OUT tells the format; it is there when it is whole.
     """
@@ -81,12 +81,38 @@ def command(source: str, target: Path, parts: tuple[str, ...], force: bool, **gi
     from .outputs import check_target
     from .saving import Wish, save
 
+    chosen = {name: value for name, value in given.items() if value is not None}
+    check_options(chosen)
     path = only(expand([source]), source, "flip takes one, run takes all")
     check_target(target, force)
     ms = loaded(path)
-    returned = _flipped(ms, path, {k: v for k, v in given.items() if v is not None})
+    returned = _flipped(ms, path, chosen)
     save(ms, target, Wish(parts, force, path.parent))
     click.echo(f"{path} -> {target}: {told.flips(returned)}, {returned['seconds']:.1f} s")
+
+
+def check_options(given: dict[str, Any]) -> None:
+    """Check options of the filter, each by itself.
+
+    Raises
+    ------
+    WrongUse
+        For the first one that the filter can't take.
+    """
+    from ..meshset.filters import BY_NAME
+    from ..meshset.native import ERRORS
+    from .errors import wrong_use
+
+    for parameter in BY_NAME[FILTER].parameters:
+        if parameter.name in given:
+            try:
+                value = parameter.read(given[parameter.name])
+                if parameter.check is not None:
+                    parameter.check(parameter.name, value)
+            except ERRORS as error:
+                raise wrong_use(f"--{parameter.name}: {reason(error)}") from error
+            except ValueError as error:
+                raise wrong_use(f"--{parameter.name}: {error}") from error
 
 
 def only(paths: list[Path], pattern: str, rule: str) -> Path:

@@ -9,6 +9,7 @@ import pymeshlab
 from numpy.typing import NDArray
 
 from ..measure import measures, triangle_shapes
+from ..mesh.build import changed_edges
 from .reference import Array, Reference, deviation
 
 WORST_SHARE = 0.01
@@ -75,16 +76,3 @@ def arrays(ms: pymeshlab.MeshSet) -> tuple[Array, NDArray[np.int32]]:
     """Vertices and faces of the current mesh, in its transformation."""
     mesh = ms.current_mesh()
     return mesh.transformed_vertex_matrix(), mesh.face_matrix()
-
-
-def changed_edges(before: NDArray[np.int32], after: NDArray[np.int32]) -> int:
-    """The number of vertex pairs that faces of `after` join and no face of `before`."""
-    return len(np.setdiff1d(_edges(after), _edges(before), assume_unique=True))
-
-
-def _edges(faces: NDArray[np.int32]) -> NDArray[np.int64]:
-    """A number for each edge, the same in all meshes."""
-    ends = np.concatenate([faces, np.roll(faces, 1, axis=1)], axis=1).astype(np.int64)
-    pairs = np.sort(ends.reshape(-1, 2, 3).transpose(0, 2, 1).reshape(-1, 2), axis=1)
-    unique: NDArray[np.int64] = np.unique((pairs[:, 0] << 32) | pairs[:, 1])
-    return unique

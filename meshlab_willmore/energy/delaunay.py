@@ -4,10 +4,11 @@ For a triangle with the sides a, b, c it is (a^2 + b^2 + c^2) / (4 area): no uni
 equilateral. In the plane every flip that makes an edge locally Delaunay (the angles opposite to it
 sum to more than pi) lowers the sum, so its descent ends at the Delaunay triangulation (O. R. Musin,
 "Properties of the Delaunay triangulation", Symposium on Computational Geometry, 1997,
-doi:10.1145/262839.263061). It is the Dirichlet energy of the coordinates for conformal weights, up
-to a factor, which Delaunay triangulations of surfaces minimise for every function (A. I. Bobenko
-and B. A. Springborn, "A discrete Laplace-Beltrami operator for simplicial surfaces", 2007,
-doi:10.1007/s00454-007-9006-1).
+doi:10.1145/262839.263061). Up to a factor it is the sum of the Dirichlet energies of the hat
+functions, the trace of the cotangent Laplacian, each of which a Delaunay triangulation minimises
+(R. Chen et al., "A spectral characterization of the Delaunay triangulation", 2010,
+doi:10.1016/j.cagd.2010.02.002; on surfaces A. I. Bobenko and B. A. Springborn, "A discrete
+Laplace-Beltrami operator for simplicial surfaces", 2007, doi:10.1007/s00454-007-9006-1).
 
 On a bent pair of faces the new edge k-l is straight in space, and so shorter than the one that
 those sources draw on the surface. The sum stays a function of the mesh, and its descent ends. But
@@ -24,7 +25,8 @@ from .triangles import corners, has_coincident_corners, twice_area
 
 # A face as flat as the rounding of coordinates in single precision makes it counts as one of this
 # sum, also if it has no area at all: then an infinite sum would forbid the flip that removes it.
-# And sums of a few such terms are still good to 1e-7, which is what a search goes by.
+# And its value, the same function of the face whenever it is computed, leaves room in a sum of few
+# for steps of 1e-7, which is what a search goes by.
 FLATTEST = 2.0**24
 
 

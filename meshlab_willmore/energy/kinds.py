@@ -25,6 +25,8 @@ class Kind(NamedTuple):
         Whether each cost reduction is `total` before minus after the flip.
     length_power : int
         The energy is measured in radians, or in no unit, times a length to this power.
+    least : float
+        What a cost reduction must exceed, in units of the median edge to that power.
     is_wide : bool
         Whether a flip changes the cost reductions of all edges at, and opposite to, the corners of
         its diamond; else only those of its sides and of the other sides of the faces outside.
@@ -33,6 +35,7 @@ class Kind(NamedTuple):
     total: Callable
     is_potential: bool = True
     length_power: int = 0
+    least: float = 1e-7
     is_wide: bool = False
 
 
@@ -40,7 +43,8 @@ KINDS = {
     "virtual willmore": Kind(virtual.total, is_potential=False),
     "willmore": Kind(willmore.total),
     "uniform virtual willmore": Kind(uniform.total),
-    "area": Kind(area.total, length_power=2),
+    # What is but rounding, the cost reduction itself leaves out, and areas of details are tiny.
+    "area": Kind(area.total, length_power=2, least=1e-16),
     "mean curvature": Kind(mean_curvature.total, length_power=1),
     "gaussian curvature": Kind(gaussian_curvature.total, is_wide=True),
     "delaunay": Kind(delaunay.total),

@@ -14,7 +14,7 @@ import math
 from ..mesh.halfedge import NONE, apex, diamond, following, previous
 from ..mesh.jit import jit
 from ..mesh.points import Point, angle_between, cross, dot, norm, point, subtract
-from .triangles import has_coincident_corners
+from .triangles import ROUNDING, has_coincident_corners
 
 # Twice the area over the sum of the squared sides, below which the normal of a face is made of the
 # rounding of its coordinates, and depends on the corner that it is computed at.
@@ -39,13 +39,13 @@ def _is_none(vector):
 
 @jit
 def _side(mesh, side, a, b, before, after):
-    """Return what the half-edge `side` from a to b loses when its face turns its normal."""
+    """Return what the half-edge `side` from a to b has when its face turns, before and after."""
     t = mesh.twin[side]
     if t == NONE:
-        return 0.0
+        return 0.0, 0.0
     outside = _normal(b, a, point(mesh.vertices, apex(mesh, t)))
-    turned = angle_between(before, outside) - angle_between(after, outside)
-    return turned * norm(subtract(b, a))
+    length = norm(subtract(b, a))
+    return length * angle_between(before, outside), length * angle_between(after, outside)
 
 
 @jit
@@ -61,9 +61,9 @@ def cost_reduction(mesh, h):
     Returns
     -------
     float
-        In units of the coordinates times radians; positive where the flip helps, minus infinity
-        where corners of the diamond coincide or a new face has no normal. It depends on the two
-        faces at `h` and on the four around them.
+        In units of the coordinates times radians; positive where the flip helps, 0 where it changes
+        no more than rounding does, minus infinity where corners of the diamond coincide or a new
+        face has no normal. It depends on the two faces at `h` and on the four around them.
     """
     quad = diamond(mesh, h)
     if has_coincident_corners(quad):
@@ -74,13 +74,19 @@ def cost_reduction(mesh, h):
     at_i, at_j = _normal(k, i, l), _normal(l, j, k)
     if _is_none(at_i) or _is_none(at_j):
         return -math.inf
-    gain = angle_between(at_k, at_l) * norm(subtract(j, i))
-    gain -= angle_between(at_i, at_j) * norm(subtract(l, k))
-    gain += _side(mesh, following(h), j, k, at_k, at_j)
-    gain += _side(mesh, previous(h), k, i, at_k, at_i)
-    gain += _side(mesh, following(t), i, l, at_l, at_i)
-    gain += _side(mesh, previous(t), l, j, at_l, at_j)
-    return gain if math.isfinite(gain) else -math.inf
+    before = angle_between(at_k, at_l) * norm(subtract(j, i))
+    after = angle_between(at_i, at_j) * norm(subtract(l, k))
+    for had, has in (
+        _side(mesh, following(h), j, k, at_k, at_j),
+        _side(mesh, previous(h), k, i, at_k, at_i),
+        _side(mesh, following(t), i, l, at_l, at_i),
+        _side(mesh, previous(t), l, j, at_l, at_j),
+    ):
+        before += had
+        after += has
+    if abs(before - after) <= ROUNDING * (before + after):
+        return 0.0
+    return before - after if math.isfinite(before - after) else -math.inf
 
 
 @jit

@@ -6,6 +6,10 @@ from ..mesh.jit import jit
 from ..mesh.points import cross, dot, norm, point
 from .angles import Turn
 
+# A difference of sums below this part of them is made of rounding. The faces themselves say how
+# much that is: beside a small part there may be a huge one.
+ROUNDING = 1e-13
+
 
 @jit
 def corners(mesh, f):

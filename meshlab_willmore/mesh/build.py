@@ -70,6 +70,17 @@ def edge_ends(faces):
     return np.minimum(faces, ahead).ravel(), np.maximum(faces, ahead).ravel()
 
 
+def changed_edges(before, after):
+    """Return the number of vertex pairs that faces of `after` (m, 3) join, and none of `before`."""
+    return len(np.setdiff1d(_edge_numbers(after), _edge_numbers(before), assume_unique=True))
+
+
+def _edge_numbers(faces):
+    """Return a number for each edge, the same in all meshes, sorted."""
+    low, high = edge_ends(faces)
+    return np.unique((low.astype(np.int64) << 32) | high)
+
+
 def build(vertices, faces):
     """Return the half-edge mesh of checked arrays, with nothing locked.
 

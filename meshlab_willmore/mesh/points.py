@@ -75,4 +75,5 @@ def normal(a, b, c):
 @jit
 def angle_between(a, b):
     """Return the angle between two vectors in [0, pi]; 0 where one of them is zero."""
-    return math.atan2(norm(cross(a, b)), dot(a, b))
+    # With a zero vector the product may be -0.0, and the angle would be pi.
+    return math.atan2(norm(cross(a, b)), dot(a, b) + 0.0)

@@ -81,10 +81,10 @@ _PARAMETERS = (
         "Energy",
         "What the flips must lower. 'virtual willmore', the paper's cost: careful, fit for scans. "
         "'willmore': the Willmore energy itself, which smooths creases of bad triangulations away. "
-        "'uniform virtual willmore': the same, with fewer slivers. 'area', 'delaunay' (the "
-        "cotangents of all angles): quick, for good triangles. 'mean curvature' (angle times "
-        "length): the straightest edges, but slivers. 'gaussian curvature' (angles missing to a "
-        "full turn): for comparison.",
+        "'uniform virtual willmore': the same, somewhat smoother. 'delaunay' (the cotangents of "
+        "all angles) and 'area': good triangles on smooth surfaces; on creased ones they may cut "
+        "corners, so check intersections. 'mean curvature' (angle times length): the least bends, "
+        "but slivers. 'gaussian curvature' (angles missing to a full turn): for comparison.",
         ENERGIES,
     ),
     Parameter(
@@ -113,8 +113,9 @@ _PARAMETERS = (
         int,
         3,
         "Breadth of chains",
-        f"How many ways a chain tries at its second flip, 1 to {MOST_BREADTH}; half as many at the "
-        "third, and so on. 1 is the quickest.",
+        "In the searches 'variable depth' and 'thorough': how many ways a chain tries at its "
+        f"second flip, 1 to {MOST_BREADTH}; half as many at the third, and so on. 1 is the "
+        "quickest.",
         check=_check_breadth,
     ),
     Parameter(
@@ -131,7 +132,8 @@ _PARAMETERS = (
         int,
         0,
         "Seed of the annealing",
-        "Of the random numbers of the search 'annealing'. The same seed gives the same mesh.",
+        "The search 'annealing' draws its random numbers from this seed. The same seed gives the "
+        "same mesh.",
         check=check_seed,
     ),
     Parameter(
@@ -168,8 +170,9 @@ _PARAMETERS = (
         bool,
         False,
         "No new self-intersections",
-        "Refuse flips after which a face would cut another one. Takes longer; worth it where "
-        "parts of the surface nearly touch, or folds are allowed.",
+        "Refuse flips after which a face would cut or touch another one. Takes longer; worth it "
+        "where parts of the surface nearly touch, or folds are allowed. Merge close vertices "
+        "before: faces along an unmerged seam touch.",
     ),
     Parameter(
         "featuredeg",
@@ -250,8 +253,13 @@ def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any]
 
 
 _RETURNS = (
-    ("flips", "int", "Number of flips."),
-    ("gain", "float", "Sum of the energy reductions of the flips, in the unit of the energy."),
+    ("flips", "int", "Number of flips; with 'annealing' of edges that are new."),
+    (
+        "gain",
+        "float",
+        "What the energy has dropped by, in its unit; for 'virtual willmore' the sum over the "
+        "flips with 'greedy' and 'variable depth', the drop of the Willmore energy else.",
+    ),
     ("willmore_before", "float", "Willmore energy before, over interior vertices, in radians."),
     ("willmore_after", "float", "Willmore energy after, over interior vertices, in radians."),
     ("converged", "bool", "Whether no allowed flip is left that helps."),
@@ -264,10 +272,10 @@ FLIPS = Filter(
     "Willmore flipping optimization",
     "Mesh optimization by edge flipping, to make the surface locally as near to a sphere as its "
     "vertices allow.",
-    "Edges are flipped as long as that lowers a discrete Willmore energy (Bobenko), measured with "
-    "virtual points in the middle of the edges, as in 'Mesh optimisation based on Willmore "
-    "energy'. Vertices never move. Boundary and non-manifold edges, texture seams stay, and so do "
-    "polygons; meshing_poly_to_tri makes triangles of them.",
+    "Edges are flipped as long as that lowers an energy, by default a discrete Willmore energy "
+    "(Bobenko), measured with virtual points in the middle of the edges, as in 'Mesh optimisation "
+    "based on Willmore energy'. Vertices never move. Boundary and non-manifold edges, texture "
+    "seams stay, and so do polygons; meshing_poly_to_tri makes triangles of them.",
     _PARAMETERS,
     _RETURNS,
     _flip,

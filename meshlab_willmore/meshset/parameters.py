@@ -9,6 +9,9 @@ from typing import Any, NamedTuple
 
 import pymeshlab
 
+# What MeshLab can hold.
+LEAST_INT, MOST_INT = -(2**31), 2**31 - 1
+
 
 class ParameterTypeError(pymeshlab.PyMeshLabException, RuntimeError):
     """A value of a type that the parameter can't take; native filters raise `RuntimeError`."""
@@ -72,7 +75,12 @@ class Parameter(NamedTuple):
         """
         try:
             return _READERS[self.type](self, value)
-        except (TypeError, OverflowError) as error:
+        except OverflowError as error:
+            raise ParameterTypeError(
+                f"Parameter {self.name}: {value!r} is out of range, a whole number from "
+                f"{LEAST_INT} to {MOST_INT} is expected."
+            ) from error
+        except TypeError as error:
             raise ParameterTypeError(
                 f"Parameter {self.name}: {value!r} is a {type(value).__name__}, "
                 f"{self._expected()} is expected."
@@ -87,7 +95,7 @@ def _read_bool(_: Parameter, value: Any) -> bool:
 
 def _read_int(_: Parameter, value: Any) -> int:
     index = operator.index(value)
-    if not -(2**31) <= index < 2**31:
+    if not LEAST_INT <= index <= MOST_INT:
         raise OverflowError
     return index
 

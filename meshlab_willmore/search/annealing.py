@@ -196,7 +196,9 @@ def _sweep(kernel, task, schedule, loss):
     random = np.random.default_rng(schedule.seed)
     edges = len(task.mesh.origin) // 2
     walk = Walk(0, 0.0, 0, 0.0, WORKING)
-    for temperature in loss * np.geomspace(schedule.hot, schedule.cold, schedule.sweeps):
+    for sweep in range(schedule.sweeps):
+        share = sweep / max(schedule.sweeps - 1, 1)
+        temperature = loss * schedule.hot * (schedule.cold / schedule.hot) ** share
         for tried in range(0, edges, SLICE):
             draws = random.random((min(SLICE, edges - tried), 2))
             walk = Walk(*kernel(task, walk, draws, temperature))

@@ -28,6 +28,8 @@ from .pending import Pending
 from .scoring import gain_of
 
 RING = 12
+# The part of the largest of several numbers that the rounding of their sum stays below.
+ROUNDING = 1e-13
 CORNERS = 6
 
 
@@ -257,7 +259,10 @@ def _add(task, h, s, score, drop):
 def _better(task, length, best):
     """Return the better one of the prefix `best` and the whole chain of `length` flips."""
     chain, rules = task.chain, task.rules
-    if not chain.drop[length] > best.drop + rules.tolerance:
+    largest = 0.0
+    for s in range(length):
+        largest = max(largest, abs(chain.drop[s + 1]))
+    if not chain.drop[length] > best.drop + max(rules.tolerance, ROUNDING * largest):
         return best
     if rules.monotone and chain.willmore[length] < -rules.tie:
         return best

@@ -59,6 +59,8 @@ WORKING, CONVERGED, STOPPED = range(3)
 # Work between two looks at the keyboard, counted in scored edges: some hundredths of a second.
 SLICE = 40_000
 SCORES_PER_FLIP = 16
+# Edges at and opposite to the corners of a diamond where all is regular.
+AROUND = 72
 NO_LIMIT = 2**62
 
 
@@ -163,8 +165,14 @@ def _rescore_around(task, h, cost_reduction):
 
 @generic
 def _rescore_fans(task, h, cost_reduction):
-    """Rescore the edges at, and opposite to, the corners of the diamond of `h`."""
-    mesh = task.mesh
+    """Rescore the edges at, and opposite to, the corners of the diamond of `h`.
+
+    Returns
+    -------
+    int
+        What that costs: each score walks round such a corner again.
+    """
+    mesh, edges = task.mesh, 0
     t = np.int64(mesh.twin[h])
     for spoke in (h, previous(h), t, previous(t)):
         # A vertex of several fans has no curvature, but its faces still have the other corners.
@@ -173,9 +181,11 @@ def _rescore_fans(task, h, cost_reduction):
             _rescore(task, x, cost_reduction)
             _rescore(task, previous(x), cost_reduction)
             _rescore(task, following(x), cost_reduction)
+            edges += 3
             x = next_in_fan(mesh, x)
             if x == spoke:
                 break
+    return edges * edges // AROUND
 
 
 @generic
@@ -248,10 +258,11 @@ def _rescore_waiting(task, face, cost_reduction):
 
 @generic
 def _flip(task, h, cost_reduction):
-    """Flip `h`, and bring everything up to date."""
+    """Flip `h`, bring everything up to date, and return about how many edges that has scored."""
+    work = SCORES_PER_FLIP
     flip(task.mesh, h)
     if task.rules.is_wide:
-        _rescore_fans(task, h, cost_reduction)
+        work += _rescore_fans(task, h, cost_reduction)
     else:
         _rescore_around(task, h, cost_reduction)
     _rescore_freed(task, h, cost_reduction)
@@ -259,6 +270,7 @@ def _flip(task, h, cost_reduction):
         spaces.follow(task.mesh, task.space, h)
         _rescore_waiting(task, h // 3, cost_reduction)
         _rescore_waiting(task, task.mesh.twin[h] // 3, cost_reduction)
+    return work
 
 
 @generic
@@ -288,7 +300,8 @@ def advance(task, progress, cost_reduction):
             if h < mesh.twin[h]:
                 update(queue, h, rank(mesh, h, task.rules, cost_reduction))
         return stop, flips, gain, WORKING
-    for _ in range(SLICE // SCORES_PER_FLIP):
+    work = 0
+    while work < SLICE:
         if queue.size[0] == 0:
             return scored, flips, gain, CONVERGED
         h = first(queue)
@@ -299,6 +312,7 @@ def advance(task, progress, cost_reduction):
             or _is_blocked(task, h)
         ):
             update(queue, h, NEVER)
+            work += SCORES_PER_FLIP
             continue
         if flips == task.rules.maxflips:
             return scored, flips, gain, STOPPED
@@ -306,7 +320,7 @@ def advance(task, progress, cost_reduction):
             insert(task.gone, mesh.origin[h], mesh.origin[mesh.twin[h]])
         flips += 1
         gain += gain_of(cost_reduction, mesh, h, task.rules)
-        _flip(task, h, cost_reduction)
+        work += _flip(task, h, cost_reduction)
     return scored, flips, gain, WORKING
 
 

@@ -5,9 +5,10 @@ import pymeshlab
 import pytest
 
 import meshlab_willmore
-from meshlab_willmore.compare.figures import changed_edges, figures
+from meshlab_willmore.compare.figures import figures
 from meshlab_willmore.compare.reference import Sphere, deviation
 from meshlab_willmore.measure import triangle_shapes
+from meshlab_willmore.mesh.build import changed_edges
 from tests import meshes, reference
 
 

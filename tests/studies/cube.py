@@ -37,6 +37,7 @@ ENERGIES = [
     "delaunay",
 ]
 SEARCHES = ["greedy", "variable depth"]
+MOST_TRIED = 5000
 STEP = 0.0025
 DEEPEST = 0.5
 FANS = [FAN] * 6
@@ -191,4 +192,4 @@ def main(limit):
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]))
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else MOST_TRIED)

@@ -107,3 +107,18 @@ def test_in_place_with_force(cube):
     assert call("flip", cube, cube, "--force").exit_code == 0
     assert listing() == ["cube.ply"]
     assert call("flip", cube, "again.ply").stdout.startswith("cube.ply -> again.ply: 0 flips")
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "line"),
+    [
+        ("--depth", "0", "depth must lie in 1 .. 100, not 0"),
+        ("--seed", "99999999999", "is out of range, a whole number from -2147483648"),
+        ("--virtualpoint", "50%", "unknown virtualpoint '50%'; choose 'midpoint', 'closest' or"),
+    ],
+)
+def test_wrong_values_are_wrong_use_before_anything_is_loaded(option, value, line):
+    result = call("flip", "there-is-none.ply", "out.ply", option, value)
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert result.stderr.startswith(f"Error: {option}: ")
+    assert line in result.stderr

@@ -374,3 +374,33 @@ def test_a_flip_to_a_face_without_a_normal_has_no_mean_curvature_to_gain():
     h = next(h for h in range(12) if {mesh.origin[h], mesh.origin[mesh.twin[h]]} == {1, 3})
     assert mean_curvature.total(mesh) == pytest.approx(np.pi)
     assert mean_curvature.cost_reduction(mesh, h) == -np.inf
+
+
+def flat_with_zero_areas():
+    vertices, faces = meshes.patch(60, 2, 0.0)
+    vertices[::3, 1] = 0.5
+    return vertices, faces
+
+
+def with_coincident_points():
+    vertices, faces = meshes.bumpy_sphere(60)
+    vertices[faces[::9, 0]] = vertices[faces[::9, 1]]
+    return vertices, faces
+
+
+@pytest.mark.parametrize("name", ["area", "mean curvature", "gaussian curvature", "delaunay"])
+@pytest.mark.parametrize("arrays", [flat_with_zero_areas(), with_coincident_points()])
+def test_degenerate_faces_cost_what_the_total_says(name, arrays):
+    """Else the gains of flips add up to something out of nothing, and a search need not end."""
+    module, _ = ENERGIES[name]
+    mesh, rng = build(*arrays), np.random.default_rng(0)
+    checked = 0
+    for h in rng.integers(0, len(mesh.origin), 1500):
+        gain = module.cost_reduction(mesh, h) if can_flip(mesh, h) else -np.inf
+        if gain > -np.inf:
+            before = module.total(mesh)
+            flip(mesh, h)
+            size = max(1.0, abs(before))
+            assert gain == pytest.approx(before - module.total(mesh), abs=1e-12 * size)
+            checked += 1
+    assert checked > 100

@@ -47,3 +47,11 @@ def test_angle_between_is_accurate_at_both_ends(degrees):
 
 def test_angle_with_a_zero_vector_is_zero():
     assert angle_between(Point(0.0, 0.0, 0.0), Point(1.0, 2.0, 3.0)) == 0.0
+
+
+@pytest.mark.parametrize("a", [(-1.0, -1.0, -1.0), (1.0, -1.0, 0.0), (-0.0, 2.0, -3.0), (0.0,) * 3])
+@pytest.mark.parametrize("zero", [0.0, -0.0])
+def test_there_is_no_angle_to_a_zero_vector(a, zero):
+    """Products with it may be -0.0, and atan2(0.0, -0.0) is pi."""
+    assert angle_between(Point(*a), Point(zero, zero, zero)) == 0.0
+    assert angle_between(Point(zero, zero, zero), Point(*a)) == 0.0

@@ -168,7 +168,8 @@ def optimize_flips(
         depth". For these two, the Willmore energy says what is better where the virtual one is
         chosen.
     depth : int
-        Most flips of a chain, 1 to 100. Only for "variable depth" and "thorough".
+        Most flips of a chain, 1 to 100; one more at the few places where the triangles are bad.
+        Only for "variable depth" and "thorough".
     breadth : int
         How many ways each chain of "variable depth" tries at its second flip, 1 to 12; half as
         many at the third, and so on. 1 is the quickest; more, with more depth, gets out of nearly

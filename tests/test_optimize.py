@@ -19,10 +19,11 @@ from meshlab_willmore.energy import (
 )
 from meshlab_willmore.energy.kinds import KINDS
 from meshlab_willmore.measure import measures, triangle_shapes, willmore_energy
-from meshlab_willmore.mesh.build import build, validate_connectivity
+from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import can_flip
 from meshlab_willmore.optimize import FlipResult, optimize_flips
 from tests import meshes, reference
+from tests.search.ways import scramble
 
 HEAVY = pytest.mark.heavy
 POTENTIALS = [name for name, kind in KINDS.items() if kind.is_potential]
@@ -188,6 +189,30 @@ def test_chains_of_flips_get_far_below_greed_on_the_torus(arguments, energy):
     assert result.gain == pytest.approx(result.willmore_before - result.willmore_after, rel=1e-9)
     assert result.converged
     assert result.reason == "no allowed chain of flips lowers the energy any more"
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("seed", [308, 309, 314, 319])
+def test_tangles_that_no_chain_of_three_flips_undoes_are_found(seed):
+    """Each of these scrambles ends in one, with W 124 or 127, if chains stop at the depth."""
+    vertices, faces = meshes.torus(2000, 0.3, 8)
+    scrambled = faces_of(scramble(build(vertices, faces), seed))
+    options = {"energy": "willmore", "search": "variable depth", "depth": 3}
+    result = optimize_flips(vertices, scrambled, **options)
+    assert result.willmore_after == pytest.approx(115.7535, abs=1e-3)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("search", ["variable depth", "thorough"])
+@pytest.mark.parametrize("seed", [100, 101])
+def test_the_result_does_not_depend_on_the_start(seed, search):
+    vertices, faces = meshes.torus(2000, None, 1)
+    scrambled = faces_of(scramble(build(vertices, faces), seed))
+    options = {"energy": "willmore", "search": search}
+    wanted = optimize_flips(vertices, faces, **options).willmore_after
+    found = optimize_flips(vertices, scrambled, **options).willmore_after
+    assert wanted < 208.0
+    assert found < (215.0 if search == "thorough" else 300.0)
 
 
 @pytest.mark.heavy

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from meshlab_willmore import guards
-from meshlab_willmore.energy import virtual, willmore
+from meshlab_willmore.energy import delaunay, virtual, willmore
 from meshlab_willmore.guards import space as spaces
 from meshlab_willmore.guards.space import no_space, space_of
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
@@ -142,11 +142,11 @@ class Scan:
         self.explore(mesh, [start], [], set(), 1)
         return self.best
 
-    def run(self, mesh, rounds):
+    def run(self, mesh, rounds, is_start=lambda h: True):
         """Make all flips; return their number for each chain."""
         made = []
         for _ in range(rounds):
-            waiting = [h for h in range(len(mesh.origin)) if h < mesh.twin[h]]
+            waiting = [h for h in range(len(mesh.origin)) if h < mesh.twin[h] and is_start(h)]
             before = len(made)
             while waiting:
                 h = waiting.pop(0)
@@ -169,6 +169,30 @@ class Scan:
                 break
         return made
 
+    def doubts(self, mesh):
+        """Go one flip deeper where the harmonic index would flip edges, until it helps no more."""
+        deeper = Scan(
+            self.rules,
+            self.reach._replace(depth=self.reach.depth + 1),
+            self.rank,
+            self.judge,
+            self.is_blocked,
+        )
+        made = []
+        while True:
+            doubtful = set()
+            for h in range(len(mesh.origin)):
+                t = int(mesh.twin[h])
+                if h > t or not can_flip(mesh, h) or guards.folds(mesh, h, self.rules.fold):
+                    continue
+                if delaunay.cost_reduction(mesh, h) > 1e-7:
+                    doubtful |= ends(mesh, h) | {int(apex(mesh, h)), int(apex(mesh, t))}
+            starts = [h for h in range(len(mesh.origin)) if ends(mesh, h) & doubtful]
+            found = deeper.run(mesh, 1, starts.__contains__)
+            if not found:
+                return made
+            made += found + self.run(mesh, MANY)
+
 
 def search(energy, mesh, rules, reach):
     kernel, descent, _, _ = ENERGIES[energy]
@@ -188,7 +212,8 @@ def test_the_search_finds_what_a_scan_finds(energy, reach, fold, name):
     flips = greedy.run(descent, scanned, rules).flips
     if reach.breadth > 1:
         flips += sum(Scan(rules, reach._replace(breadth=1), rank, judge).run(scanned, rounds=1))
-    flips += sum(Scan(rules, reach, rank, judge).run(scanned, rounds=MANY))
+    scan = Scan(rules, reach, rank, judge)
+    flips += sum(scan.run(scanned, rounds=MANY)) + sum(scan.doubts(scanned))
     progress = search(energy, searched, rules, reach)
     validate_connectivity(searched)
     np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))
@@ -218,7 +243,9 @@ def test_chains_blocked_by_cuts_are_tried_again_once_a_scan_would(reach, name):
     flips = greedy.run(descent, scanned, rules, space_of(scanned)).flips
     for stage in dict.fromkeys((reach._replace(breadth=1), reach)):
         rounds = 1 if stage != reach else MANY
-        flips += sum(Scan(rules, stage, rank, judge, is_blocked).run(scanned, rounds))
+        scan = Scan(rules, stage, rank, judge, is_blocked)
+        flips += sum(scan.run(scanned, rounds))
+    flips += sum(scan.doubts(scanned))
     space = space_of(searched)
     progress = variable_depth.run(kernel, descent, searched, rules, reach, space)
     np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))

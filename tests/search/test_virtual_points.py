@@ -63,7 +63,7 @@ def test_chains_are_ranked_by_these_points(place, name):
     reach = Reach(3, 1)
     flips = greedy.run(descent, scanned, rules()).flips
     scan = Scan(rules(), reach, cost_reduction, willmore.cost_reduction)
-    flips += sum(scan.run(scanned, rounds=100))
+    flips += sum(scan.run(scanned, rounds=100)) + sum(scan.doubts(scanned))
     progress = variable_depth.run(kernel, descent, searched, rules(), reach)
     validate_connectivity(searched)
     np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))

@@ -179,7 +179,8 @@ def run(kernel, descent, mesh, rules, reach, space=None):
             queue_near(mesh, pending, touched, reach.depth + rules.is_wide)
             queue_blocked(mesh, pending, blocked)
             progress = _work_off(kernel, task, progress)
-        if progress.state == STOPPED:
+        # Single flips are no chains: a depth of 1 is plain descent.
+        if progress.state == STOPPED or reach.depth == 1:
             return progress
         _mark_doubtful(mesh, rules, doubtful)
         queue_near(mesh, pending, doubtful, 0)

@@ -9,12 +9,6 @@ import pytest
 
 from meshlab_willmore import guards, optimize
 from meshlab_willmore.energy import (
-    area,
-    delaunay,
-    gaussian_curvature,
-    mean_curvature,
-    uniform,
-    virtual,
     willmore,
 )
 from meshlab_willmore.energy.kinds import KINDS
@@ -31,15 +25,6 @@ BOTH_WILLMORE = ["virtual willmore", "willmore"]
 ENERGIES = [
     pytest.param(name, marks=() if name in BOTH_WILLMORE else HEAVY) for name in optimize.KERNELS
 ]
-MODULES = {
-    "virtual willmore": virtual,
-    "willmore": willmore,
-    "uniform virtual willmore": uniform,
-    "area": area,
-    "mean curvature": mean_curvature,
-    "gaussian curvature": gaussian_curvature,
-    "delaunay": delaunay,
-}
 HEAVY_DEPTH = pytest.param("variable depth", marks=HEAVY)
 BUMPY = meshes.bumpy_sphere(60)
 PATCH = meshes.patch(60)
@@ -282,9 +267,9 @@ def test_every_search_is_worth_it_on_every_energy(energy, search):
     result = optimize_flips(vertices, faces, energy=energy, search=search)
     mesh = build(vertices, result.faces)
     fold = guards.fold_limits(90.0)
-    kind, cost_reduction = KINDS[energy], MODULES[energy].cost_reduction
+    kind = KINDS[energy]
     left = [
-        cost_reduction(mesh, h)
+        kind.cost_reduction(mesh, h)
         for h in np.flatnonzero(np.arange(len(mesh.twin)) < mesh.twin)
         if can_flip(mesh, h) and not guards.folds(mesh, h, fold)
         if kind.is_potential or willmore.cost_reduction(mesh, h) > 1e-7

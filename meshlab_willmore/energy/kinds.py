@@ -19,8 +19,8 @@ class Kind(NamedTuple):
 
     Attributes
     ----------
-    total : callable
-        Jitted function of a mesh.
+    cost_reduction, total : callable
+        Jitted functions of a mesh and a half-edge, and of a mesh.
     is_potential : bool
         Whether each cost reduction is `total` before minus after the flip.
     length_power : int
@@ -32,6 +32,7 @@ class Kind(NamedTuple):
         its diamond; else only those of its sides and of the other sides of the faces outside.
     """
 
+    cost_reduction: Callable
     total: Callable
     is_potential: bool = True
     length_power: int = 0
@@ -39,13 +40,17 @@ class Kind(NamedTuple):
     is_wide: bool = False
 
 
+def _kind(energy, **properties):
+    return Kind(energy.cost_reduction, energy.total, **properties)
+
+
 KINDS = {
-    "virtual willmore": Kind(virtual.total, is_potential=False),
-    "willmore": Kind(willmore.total),
-    "uniform virtual willmore": Kind(uniform.total),
+    "virtual willmore": _kind(virtual, is_potential=False),
+    "willmore": _kind(willmore),
+    "uniform virtual willmore": _kind(uniform),
     # What is but rounding, the cost reduction itself leaves out, and areas of details are tiny.
-    "area": Kind(area.total, length_power=2, least=1e-16),
-    "mean curvature": Kind(mean_curvature.total, length_power=1),
-    "gaussian curvature": Kind(gaussian_curvature.total, is_wide=True),
-    "delaunay": Kind(delaunay.total),
+    "area": _kind(area, length_power=2, least=1e-16),
+    "mean curvature": _kind(mean_curvature, length_power=1),
+    "gaussian curvature": _kind(gaussian_curvature, is_wide=True),
+    "delaunay": _kind(delaunay),
 }

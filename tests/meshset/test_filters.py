@@ -74,7 +74,7 @@ def test_choices_and_limits_are_those_of_the_core():
         {"checkintersections": True, "foldangle": 180.0},
         {"search": "variable depth", "depth": 2, "breadth": 1},
         {"search": "annealing", "sweeps": 3, "seed": 5},
-        {"search": "thorough", "depth": 2},
+        pytest.param({"search": "thorough", "depth": 2}, marks=pytest.mark.heavy),
     ],
 )
 def test_each_option_reaches_the_core(options):

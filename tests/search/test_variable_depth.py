@@ -13,13 +13,14 @@ from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import NONE, apex, can_flip, flip, following, previous
 from meshlab_willmore.mesh.jit import generic, jit
 from meshlab_willmore.mesh.points import norm, point, subtract
-from meshlab_willmore.search import chains, entries, greedy, variable_depth
+from meshlab_willmore.search import chains, entries, greedy, states, variable_depth
 from meshlab_willmore.search import pending as pending_queue
 from meshlab_willmore.search.chains import Reach
 from tests import meshes, reference
 from tests.guards import brute
+from tests.search import ways
+from tests.search.ways import FREE, GUARDED, shuffled
 
-GUARDED, FREE = guards.fold_limits(90.0), guards.fold_limits(180.0)
 # More rounds than any of these runs needs.
 MANY = 100
 ENERGIES = {
@@ -39,42 +40,8 @@ ENERGIES = {
 REACHES = [Reach(1, 1), Reach(2, 1), Reach(3, 2), Reach(4, 3)]
 
 
-def some_locked():
-    vertices, faces = meshes.bumpy_sphere(40, 3, bump=0.6)
-    mesh = build(vertices, faces)
-    guards.lock_unselected(mesh, vertices[faces].mean(axis=1)[:, 0] > -0.3)
-    return mesh
-
-
-def shuffled(count, seed, bump=0.6):
-    """A bumpy sphere after random flips: far from optimal, with 3-cycles that are no faces."""
-    mesh = build(*meshes.bumpy_sphere(count, seed, bump))
-    rng = np.random.default_rng(seed)
-    for _ in range(4 * count):
-        flip(mesh, rng.choice([h for h in range(len(mesh.origin)) if can_flip(mesh, h)]))
-    mesh.corner[:] = np.arange(len(mesh.corner))
-    return mesh
-
-
-MESHES = {
-    "closed": lambda: build(*meshes.bumpy_sphere(40, 1, bump=0.6)),
-    "boundary": lambda: build(*meshes.patch(40, 1, height=0.6)),
-    "flat boundary": lambda: build(*meshes.patch(30, height=0.0)),
-    "cube": lambda: build(*meshes.cube(0.1)),
-    "fin": lambda: build(*meshes.fin()[:2]),
-    "locked": some_locked,
-    "moebius band": lambda: build(*meshes.moebius_band()),
-    "shuffled": lambda: shuffled(20, 1),
-}
-
-
-def copy_of(mesh):
-    return mesh._replace(
-        origin=mesh.origin.copy(),
-        twin=mesh.twin.copy(),
-        locked=mesh.locked.copy(),
-        corner=mesh.corner.copy(),
-    )
+MESHES = {name: mesh for name, mesh in ways.MESHES.items() if len(mesh().origin) > 6}
+MESHES["shuffled"] = lambda: shuffled(20, 1)
 
 
 def ends(mesh, h):
@@ -129,7 +96,7 @@ class Scan:
                 self.best = drop, [entry[0] for entry in longer]
             if last:
                 continue
-            flipped = copy_of(mesh)
+            flipped = states.copy_of(mesh)
             flip(flipped, h)
             following_width = -(-width // 2) if chain else self.reach.breadth
             joined = {*made, ends(flipped, h)}
@@ -287,7 +254,7 @@ def new_task(mesh, rules, reach):
 def test_what_a_chain_tries_leaves_no_trace(reach, name):
     """Undone flips give back all arrays bit for bit, also the corners, which a flip merges."""
     mesh = MESHES[name]()
-    before = copy_of(mesh)
+    before = states.copy_of(mesh)
     task = new_task(mesh, greedy.Rules(FREE), reach)
     worked = 0
     for h in np.flatnonzero(mesh.twin != NONE):
@@ -296,7 +263,7 @@ def test_what_a_chain_tries_leaves_no_trace(reach, name):
         for changed, kept in zip(mesh, before, strict=True):
             np.testing.assert_array_equal(changed, kept)
         # The prefix is worth what it says.
-        after = copy_of(mesh)
+        after = states.copy_of(mesh)
         for s in range(best[0]):
             assert can_flip(after, task.chain.best[s])
             flip(after, task.chain.best[s])
@@ -314,7 +281,7 @@ def test_the_ring_is_where_cost_reductions_change(name):
     for h in np.flatnonzero(mesh.twin > np.arange(len(mesh.twin)))[::7]:
         if not can_flip(mesh, h):
             continue
-        flipped = copy_of(mesh)
+        flipped = states.copy_of(mesh)
         flip(flipped, h)
         there = {ends(flipped, x) for x in ring[: chains.ring_around(flipped, h, ring)]}
         gains = [
@@ -370,7 +337,7 @@ def test_deeper_is_never_worse_than_greedy_and_a_minimum(energy, name):
     for h in np.flatnonzero(mesh.twin != NONE):
         if h < mesh.twin[h]:
             assert chains.find_chain(task, h, rank, judge)[0][0] == 0
-    again = copy_of(mesh)
+    again = states.copy_of(mesh)
     state = kernel(task, greedy.Progress(0, 0, 0.0, greedy.WORKING))
     assert state == (0, 0, 0.0, greedy.CONVERGED)
     np.testing.assert_array_equal(mesh.origin, again.origin)
@@ -444,7 +411,7 @@ def test_any_energy_will_do_and_the_monotone_rule_watches_the_true_one(monotone)
 @pytest.mark.heavy
 @pytest.mark.parametrize("energy", ENERGIES)
 def test_locked_edges_stay_and_the_rest_improves(energy):
-    mesh = some_locked()
+    mesh = MESHES["locked"]()
     locked = {ends(mesh, h) for h in np.flatnonzero(mesh.locked)}
     assert search(energy, mesh, greedy.Rules(FREE), Reach(4, 3)).flips > 5
     assert locked == {ends(mesh, h) for h in np.flatnonzero(mesh.locked)}

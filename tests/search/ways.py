@@ -20,6 +20,16 @@ def some_locked():
     return mesh
 
 
+def shuffled(count, seed, bump=0.6):
+    """A bumpy sphere after random flips: far from optimal, with 3-cycles that are no faces."""
+    mesh = build(*meshes.bumpy_sphere(count, seed, bump))
+    rng = np.random.default_rng(seed)
+    for _ in range(4 * count):
+        flip(mesh, rng.choice([h for h in range(len(mesh.origin)) if can_flip(mesh, h)]))
+    mesh.corner[:] = np.arange(len(mesh.corner))
+    return mesh
+
+
 MESHES = {
     "closed": lambda: build(*meshes.bumpy_sphere(40, 1, bump=0.6)),
     "boundary": lambda: build(*meshes.patch(40, 1, height=0.6)),

@@ -12,6 +12,7 @@ import numpy as np
 import pymeshlab
 
 from meshlab_willmore import optimize_flips
+from meshlab_willmore.energy.kinds import KINDS
 from meshlab_willmore.mesh.build import build
 from tests.meshes import cube
 from tests.studies.models import print_table
@@ -27,15 +28,6 @@ from tests.studies.triangulations import (
 )
 
 PUSHES = [0.01, 0.05, 0.1, 0.2, 0.3, 0.4]
-ENERGIES = [
-    "virtual willmore",
-    "willmore",
-    "uniform virtual willmore",
-    "area",
-    "mean curvature",
-    "gaussian curvature",
-    "delaunay",
-]
 SEARCHES = ["greedy", "variable depth"]
 MOST_TRIED = 5000
 STEP = 0.0025
@@ -70,7 +62,7 @@ def descents():
     for push in PUSHES:
         vertices, faces = cube(push)
         yield [str(push), "(initial)", "", "", *texts(measured(vertices, faces)), "0"]
-        for energy in ENERGIES:
+        for energy in KINDS:
             for search in SEARCHES:
                 result = optimize_flips(vertices, faces, energy=energy, search=search)
                 found = measured(vertices, result.faces)

@@ -53,10 +53,8 @@ def box_of(face):
 
 
 @jit
-def _are_refused(one, f, other, g, area_scale):
-    """Tell whether the faces `one` and `other`, with the numbers f and g, count as cut."""
-    if f > g:
-        one, other = other, one
+def _are_refused(one, other, area_scale):
+    """Tell whether two faces count as cut."""
     common = match(one, other)
     return count_as_cut(one, other, common, area_scale) or cut_exactly(one, other, common)
 
@@ -83,7 +81,7 @@ def _first_cut(mesh, space, new, f, other):
             if e in (f, other):
                 continue
             near = face_at(mesh, e)
-            if boxes_meet(box_of(near), box) and _are_refused(new, f, near, e, space.area_scale):
+            if boxes_meet(box_of(near), box) and _are_refused(new, near, space.area_scale):
                 return e
         node = next_leaf(space, after(node), box)
     return NONE
@@ -109,7 +107,7 @@ def blocker(mesh, space, h):
     """
     f, g = np.int64(h // 3), np.int64(mesh.twin[h] // 3)
     one, other = _new_faces(mesh, h)
-    if _are_refused(one, f, other, g, space.area_scale):
+    if _are_refused(one, other, space.area_scale):
         return f
     found = _first_cut(mesh, space, one, f, g)
     return found if found != NONE else _first_cut(mesh, space, other, g, f)

@@ -106,14 +106,16 @@ def _boxes_touch_at_most(one, other):
 
 @jit
 def count_as_cut(one, other, common, area_scale):
-    """Tell whether MeshLab may count two faces as cut; `one` has the lower number of both.
+    """Tell whether MeshLab may count two faces as cut, whichever it looks at first.
 
     See `meshlab_willmore.guards.rounded` for the area scale.
     """
     if common.shared == 2 or _boxes_touch_at_most(one, other):
         return False
     if common.shared == 0:
-        return rounded.triangles_meet(one.a, one.b, one.c, other.a, other.b, other.c)
+        return rounded.triangles_meet(
+            one.a, one.b, one.c, other.a, other.b, other.c
+        ) or rounded.triangles_meet(other.a, other.b, other.c, one.a, one.b, one.c)
     if common.shared == CORNERS:
         return True
     p, q = from_corner(one, common.corner), from_corner(other, common.other)

@@ -9,6 +9,10 @@ towards it, by T. Möller and B. Trumbore, "Fast, minimum storage ray/triangle i
 DOI 10.1080/10867651.1997.10487468; two: never. Where MeshLab looks at more conditions than these,
 they are left out, so that the answer is yes at least as often as there.
 
+MeshLab looks at a pair of faces once, the lower number first, but in a process that has run many
+filters in both orders: a run marks faces by one of 32 bits, some filters never give theirs back,
+and without a bit it does not know which pairs it has seen. So the guard asks in both orders too.
+
 Coordinates scaled by a power of two give the same answers, but for one absolute limit.
 """
 
@@ -82,7 +86,7 @@ def _interval(a, b, c, heights):
 def triangles_meet(a, b, c, p, q, r):
     """Tell whether MeshLab says that two triangles without a common vertex meet.
 
-    The one with the lower face number comes first, and the corners in their order.
+    The answer depends, by rounding, on which comes first and on the order of the corners.
     """
     n = _unit(cross(subtract(b, a), subtract(c, a)))
     from_first = _heights(n, -dot(n, a), p, q, r)

@@ -9,7 +9,7 @@ from . import guards
 from .energy.kinds import KINDS
 from .guards import space as spaces
 from .measure import willmore_energy_of
-from .mesh.build import build, changed_edges, faces_of
+from .mesh.build import build, changed_edges, in_old_slots, local_order
 from .mesh.halfedge import lengths_of_sides
 from .mesh.validate import (
     check_choice,
@@ -25,32 +25,24 @@ from .mesh.validate import (
     in_input_units,
     to_unit_scale,
 )
-from .search import annealing, chains, greedy, thorough, variable_depth
+from .search import annealing, chains, greedy, parallel_greedy, thorough, variable_depth
 from .search.kernels import AT, KERNELS, PLACED_KERNELS
+from .search.rules import CONVERGED, NO_LIMIT, Rules
 
-SEARCHES = ("greedy", "variable depth", "annealing", "thorough")
+SEARCHES = ("parallel greedy", "greedy", "variable depth", "annealing", "thorough")
 PLACES = ("midpoint", "closest")
 # Where else the thorough search begins: after descents along these energies.
 PRELUDES = ("delaunay", "mean curvature")
-STOPPED = "maxflips reached"
-REASONS = {
-    "greedy": {
-        greedy.CONVERGED: "no allowed flip lowers the energy any more",
-        greedy.STOPPED: STOPPED,
-    },
-    "variable depth": {
-        greedy.CONVERGED: "no allowed chain of flips lowers the energy any more",
-        greedy.STOPPED: STOPPED,
-    },
-    "annealing": {
-        greedy.CONVERGED: "no allowed flip lowers the energy any more",
-        greedy.STOPPED: STOPPED,
-    },
-    "thorough": {
-        greedy.CONVERGED: "no allowed chain of flips lowers the energy any more",
-        greedy.STOPPED: STOPPED,
-    },
+NO_FLIP = "no allowed flip lowers the energy any more"
+NO_CHAIN = "no allowed chain of flips lowers the energy any more"
+CONVERGED_REASONS = {
+    "parallel greedy": NO_FLIP,
+    "greedy": NO_FLIP,
+    "variable depth": NO_CHAIN,
+    "annealing": NO_FLIP,
+    "thorough": NO_CHAIN,
 }
+STOPPED_REASON = "maxflips reached"
 MOST_DEPTH = 100
 MOST_SWEEPS = 10**9
 # Cost reductions are ranked in steps of this part of the median edge, to the energy's power.
@@ -71,9 +63,9 @@ class FlipResult(NamedTuple):
         What the chosen energy has dropped by, in its unit: radians; the coordinates' unit times
         radians for "mean curvature", its square for "area", none for "delaunay". The energy
         "virtual willmore" is no function of the mesh. For it, it is the sum of the flips' cost
-        reductions with "greedy" and "variable depth" (which judges chains by the Willmore energy,
-        so that the sum may be negative), and the drop of the Willmore energy, in the form that
-        counts every interior edge, with the other searches.
+        reductions with the greedy searches and "variable depth" (which judges chains by the
+        Willmore energy, so that the sum may be negative), and the drop of the Willmore energy, in
+        the form that counts every interior edge, with the other searches.
     willmore_before, willmore_after : float
         Willmore energy of the mesh, as `meshlab_willmore.measure.willmore_energy` gives it: summed
         over interior vertices. On a mesh with a boundary it leaves out what the edges carry at
@@ -117,7 +109,7 @@ def optimize_flips(
     faces,
     *,
     energy="virtual willmore",
-    search="greedy",
+    search="parallel greedy",
     depth=5,
     breadth=3,
     sweeps=200,
@@ -155,11 +147,14 @@ def optimize_flips(
         - "mean curvature": dihedral angle times length, summed over the edges.
         - "gaussian curvature": the absolute value of 2 pi minus the angles, summed over vertices.
         - "delaunay": the cotangents of all angles, which Delaunay triangulations minimise.
-    search : {"greedy", "variable depth", "annealing", "thorough"}
-        How to minimise it. "greedy": always the flip of the largest cost reduction. "variable
-        depth": the same first, then chains of flips that may go through a loss, until none helps;
-        slower, and far less dependent on the triangulation at the start. With the virtual Willmore
-        energy, that energy decides where a chain goes, and the Willmore energy whether it helps.
+    search : {"parallel greedy", "greedy", "variable depth", "annealing", "thorough"}
+        How to minimise it. "greedy": always the flip of the largest cost reduction in the whole
+        mesh, one by one. "parallel greedy": at the same time all flips that gain more than any
+        other around them, on all cores; much quicker, as good, and the same for any number of
+        threads. "variable depth": "greedy" first, then chains of flips that may go through a loss,
+        until none helps; slower, and far less dependent on the triangulation at the start. With the
+        virtual Willmore energy, that energy decides where a chain goes, and the Willmore energy
+        whether it helps.
         "annealing": greedy first, then random flips that may go through a loss, the less so the
         colder it gets, then greedy again; never worse than "greedy", but seldom worth it: "variable
         depth" gets lower in the same time, and on large meshes far lower. "thorough": the search
@@ -256,14 +251,17 @@ def optimize_flips(
     )
     is_guarded = check_flag("checkintersections", checkintersections)
     scaled, exponent = to_unit_scale(vertices, faces)
-    mesh = build(scaled, faces)
-    _apply_locks(mesh, locks)
+    order = local_order(faces, len(vertices))
+    mesh = build(scaled, faces[order])
+    _apply_locks(mesh, locks, order)
     before = willmore_energy_of(mesh)
     kind = KINDS[energy]
     kernels = PLACED_KERNELS[place] if energy == "virtual willmore" else KERNELS[energy]
     rules = _suited(rules, kind, mesh)
     space = spaces.space_of(mesh, exponent) if is_guarded else spaces.no_space()
-    if search == "greedy":
+    if search == "parallel greedy":
+        progress = parallel_greedy.run(kernels.score, mesh, rules, space)
+    elif search == "greedy":
         progress = greedy.run(kernels.greedy, mesh, rules, space)
     elif search == "variable depth":
         progress = variable_depth.run(kernels.depth, kernels.greedy, mesh, rules, reach, space)
@@ -275,7 +273,8 @@ def optimize_flips(
             for name in PRELUDES
         ]
         progress = thorough.run(kernels, preludes, mesh, rules, reach, space)
-    new_faces = faces_of(mesh)
+    converged = progress.state == CONVERGED
+    new_faces, corners = in_old_slots(mesh, order)
     # Random flips go to and fro: how many there were says nothing of the result.
     flips = changed_edges(faces, new_faces) if search == "annealing" else progress.flips
     return FlipResult(
@@ -284,19 +283,19 @@ def optimize_flips(
         gain=in_input_units(progress.gain, exponent * kind.length_power),
         willmore_before=before,
         willmore_after=willmore_energy_of(mesh),
-        converged=progress.state == greedy.CONVERGED,
-        reason=REASONS[search][progress.state],
-        corners=mesh.corner.reshape(-1, 3),
+        converged=converged,
+        reason=CONVERGED_REASONS[search] if converged else STOPPED_REASON,
+        corners=corners,
     )
 
 
 def _rules(monotone, foldangle, maxflips):
     """Check the options of the search and return them as its rules."""
     limit = check_limit("maxflips", maxflips)
-    return greedy.Rules(
+    return Rules(
         fold=guards.fold_limits(check_degrees("foldangle", foldangle)),
         monotone=check_flag("monotone", monotone),
-        maxflips=greedy.NO_LIMIT if limit is None else min(limit, greedy.NO_LIMIT),
+        maxflips=NO_LIMIT if limit is None else min(limit, NO_LIMIT),
     )
 
 
@@ -313,11 +312,11 @@ def _suited(rules, kind, mesh):
     return rules._replace(tolerance=kind.least * unit, rank_step=RANK_STEP * unit)
 
 
-def _apply_locks(mesh, locks):
-    """Lock edges of `mesh` in place."""
+def _apply_locks(mesh, locks, order):
+    """Lock edges of `mesh`, whose faces are those of the input in `order`, in place."""
     if locks.featuredeg < guards.FLAT_ANGLE:
         guards.lock_creases(mesh, math.radians(locks.featuredeg))
     if locks.selected_faces is not None:
-        guards.lock_unselected(mesh, locks.selected_faces)
+        guards.lock_unselected(mesh, locks.selected_faces[order])
     if locks.locked_edges is not None:
         guards.lock_edges(mesh, locks.locked_edges)

@@ -12,14 +12,14 @@ For other places on the diagonals see `virtual_closest` and `virtual_at`.
 import math
 
 from ..mesh.halfedge import Diamond, diamond
-from ..mesh.jit import jit
+from ..mesh.jit import inlined, jit
 from ..mesh.points import from_middle, subtract
 from . import willmore
-from .angles import add, radians, turn
-from .sides import View, Views, side_angles
+from .angles import add, difference, radians, turn
+from .sides import View, Views, side_angles, sides_of
 
 
-@jit
+@inlined
 def _spokes(quad, a, b):
     """Return the vectors to the corners of the quad from the middle of a-b."""
     return Diamond(
@@ -30,14 +30,14 @@ def _spokes(quad, a, b):
     )
 
 
-@jit
+@inlined
 def _views(spokes):
     """Return the sides of the quad as the virtual vertex sees them."""
     i, j, k, l = spokes
     return Views(View(j, k), View(k, i), View(i, l), View(l, j))
 
 
-@jit
+@inlined
 def _add_spokes(angles, quad, spokes):
     """Add the angles at the edges from the virtual vertex to the corners of the quad."""
     i, j, k, l = quad
@@ -47,27 +47,33 @@ def _add_spokes(angles, quad, spokes):
     return add(angles, turn(spokes.i, subtract(i, k), spokes.j, subtract(j, k)))
 
 
-@jit
-def virtual_angles(mesh, h, quad, spokes):
-    """Return the sum of the angles that the place of a virtual vertex decides, in radians.
+@inlined
+def virtual_angles(quad, sides, spokes):
+    """Return the sum of the angles that the place of a virtual vertex decides.
 
     Parameters
     ----------
-    mesh : Mesh
-    h : int
-        Half-edge with a twin.
     quad : Diamond
-        The points around it.
+        The points around the edge.
+    sides : Sides
+        What is outside of these.
     spokes : Diamond
-        The vectors to these from the virtual vertex, wherever on i-j or on k-l it stands.
+        The vectors to the corners from the virtual vertex, wherever on i-j or on k-l it stands.
 
     Returns
     -------
-    float
+    AngleSum
         Over the four spokes and the four sides of the quad; NaN where an angle is undefined.
     """
-    sides = side_angles(mesh, h, quad, _views(spokes))
-    return radians(_add_spokes(sides, quad, spokes))
+    return _add_spokes(side_angles(quad, sides, _views(spokes)), quad, spokes)
+
+
+@inlined
+def drop(quad, sides):
+    """Return by how much the sum of the intersection angles drops, as in `willmore.drop`."""
+    before = virtual_angles(quad, sides, _spokes(quad, quad.i, quad.j))
+    after = virtual_angles(quad, sides, _spokes(quad, quad.k, quad.l))
+    return difference(before, after)
 
 
 @jit
@@ -85,10 +91,7 @@ def cost_reduction(mesh, h):
     float
         In radians; positive where the flip helps, minus infinity where an angle is undefined.
     """
-    quad = diamond(mesh, h)
-    before = virtual_angles(mesh, h, quad, _spokes(quad, quad.i, quad.j))
-    after = virtual_angles(mesh, h, quad, _spokes(quad, quad.k, quad.l))
-    gain = 2.0 * (before - after)
+    gain = 2.0 * radians(drop(diamond(mesh, h), sides_of(mesh, h)))
     return gain if math.isfinite(gain) else -math.inf
 
 

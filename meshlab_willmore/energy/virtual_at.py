@@ -14,6 +14,8 @@ import math
 from ..mesh.halfedge import Diamond, diamond
 from ..mesh.jit import jit
 from ..mesh.points import from_between
+from .angles import difference, radians
+from .sides import sides_of
 from .virtual import virtual_angles
 
 
@@ -29,11 +31,11 @@ def spokes_at(quad, a, b, t):
 
 
 @jit
-def _angles_from_both_ends(mesh, h, quad, a, b, t):
-    """Return the sum of the angles for the two points of a-b that divide it as t to 1 - t."""
-    # Ends exchanged, and not 1 - t, which is rounded where t is small.
-    from_a = virtual_angles(mesh, h, quad, spokes_at(quad, a, b, t))
-    return from_a + virtual_angles(mesh, h, quad, spokes_at(quad, b, a, t))
+def _drop(quad, sides, a, b, c, d, t):
+    """Return the drop, in radians, for the points that divide a-b and c-d as t to 1 - t."""
+    before = virtual_angles(quad, sides, spokes_at(quad, a, b, t))
+    after = virtual_angles(quad, sides, spokes_at(quad, c, d, t))
+    return radians(difference(before, after))
 
 
 @jit
@@ -53,8 +55,9 @@ def cost_reduction(mesh, h, t):
     float
         In radians; positive where the flip helps, minus infinity where an angle is undefined.
     """
-    quad = diamond(mesh, h)
-    before = _angles_from_both_ends(mesh, h, quad, quad.i, quad.j, t)
-    # Twice the sum of the angles, and half of the sum over both ends: the factors cancel.
-    gain = before - _angles_from_both_ends(mesh, h, quad, quad.k, quad.l, t)
+    quad, sides = diamond(mesh, h), sides_of(mesh, h)
+    i, j, k, l = quad
+    # Ends exchanged, and not 1 - t, which is rounded where t is small. Twice the sum of the angles,
+    # and half of the sum over both ends: the factors cancel.
+    gain = _drop(quad, sides, i, j, k, l, t) + _drop(quad, sides, j, i, l, k, t)
     return gain if math.isfinite(gain) else -math.inf

@@ -20,6 +20,8 @@ import math
 from ..mesh.halfedge import diamond
 from ..mesh.jit import jit
 from ..mesh.points import cross, dot, subtract
+from .angles import difference, radians
+from .sides import sides_of
 from .virtual import virtual_angles
 from .virtual_at import spokes_at
 
@@ -94,9 +96,9 @@ def cost_reduction(mesh, h):
     float
         In radians; positive where the flip helps, minus infinity where an angle is undefined.
     """
-    quad = diamond(mesh, h)
+    quad, sides = diamond(mesh, h), sides_of(mesh, h)
     a, b = closest(quad)
-    before = virtual_angles(mesh, h, quad, spokes_at(quad, quad.i, quad.j, a))
-    after = virtual_angles(mesh, h, quad, spokes_at(quad, quad.k, quad.l, b))
-    gain = 2.0 * (before - after)
+    before = virtual_angles(quad, sides, spokes_at(quad, quad.i, quad.j, a))
+    after = virtual_angles(quad, sides, spokes_at(quad, quad.k, quad.l, b))
+    gain = 2.0 * radians(difference(before, after))
     return gain if math.isfinite(gain) else -math.inf

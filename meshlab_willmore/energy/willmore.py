@@ -12,13 +12,13 @@ the four sides of the quad: the third corner of the face inside is now an end of
 import math
 
 from ..mesh.halfedge import diamond
-from ..mesh.jit import jit
+from ..mesh.jit import inlined, jit
 from ..mesh.points import subtract
-from .angles import angle, radians
-from .sides import View, Views, side_angles
+from .angles import angle, difference, radians
+from .sides import View, Views, side_angles, sides_of
 
 
-@jit
+@inlined
 def _views_before(quad):
     """Return the sides as the faces (i, j, k) and (j, i, l) see them."""
     i, j, k, l = quad
@@ -30,7 +30,7 @@ def _views_before(quad):
     )
 
 
-@jit
+@inlined
 def _views_after(quad):
     """Return the sides as the faces (k, i, l) and (l, j, k) see them."""
     i, j, k, l = quad
@@ -40,6 +40,27 @@ def _views_after(quad):
         View(subtract(i, k), subtract(l, k)),
         View(subtract(l, k), subtract(j, k)),
     )
+
+
+@inlined
+def drop(quad, sides):
+    """Return by how much the sum of the intersection angles drops in a flip.
+
+    Parameters
+    ----------
+    quad : Diamond
+        The points around the edge.
+    sides : Sides
+        What is outside of these.
+
+    Returns
+    -------
+    AngleSum
+        NaN where an angle is undefined.
+    """
+    before = side_angles(quad, sides, _views_before(quad))
+    after = side_angles(quad, sides, _views_after(quad))
+    return difference(before, after)
 
 
 @jit
@@ -57,10 +78,7 @@ def cost_reduction(mesh, h):
     float
         In radians; positive where the flip helps, minus infinity where an angle is undefined.
     """
-    quad = diamond(mesh, h)
-    before = side_angles(mesh, h, quad, _views_before(quad))
-    after = side_angles(mesh, h, quad, _views_after(quad))
-    gain = 2.0 * (radians(before) - radians(after))
+    gain = 2.0 * radians(drop(diamond(mesh, h), sides_of(mesh, h)))
     return gain if math.isfinite(gain) else -math.inf
 
 

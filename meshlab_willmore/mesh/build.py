@@ -3,7 +3,7 @@
 import numpy as np
 
 from .halfedge import NONE, Mesh, next_in_fan
-from .jit import jit
+from .jit import at, jit
 
 
 @jit
@@ -79,6 +79,51 @@ def _edge_numbers(faces):
     """Return a number for each edge, the same in all meshes, sorted."""
     low, high = edge_ends(faces)
     return np.unique((low.astype(np.int64) << 32) | high)
+
+
+def local_order(faces, vertex_count):
+    """Return an order (m,) int32 of the faces in which neighbours are near each other.
+
+    It is that of their lowest vertices. Files that scatter their faces make each look at a
+    neighbour a walk through memory.
+    """
+    starts = np.empty(vertex_count + 2, np.int64)
+    return sort_by_vertex(np.arange(len(faces), dtype=np.int32), _lowest(faces), starts)
+
+
+def in_old_slots(mesh, order):
+    """Return the faces of a mesh that was built of the faces ``input[order]``, as in the input.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    order : (m,) int32
+
+    Returns
+    -------
+    faces, corners : (m, 3) int32
+        Face ``order[f]`` is face f of the mesh. For each of its corners a corner of the input, as
+        `Mesh.corner`, but in the numbers of the input.
+    """
+    faces, corners = np.empty((2, len(order), 3), np.int32)
+    _put_back(mesh, order, faces, corners)
+    return faces, corners
+
+
+@jit
+def _put_back(mesh, order, faces, corners):
+    for h in range(len(mesh.origin)):
+        f, source = order[at(h // 3)], mesh.corner[at(h)]
+        faces[at(f), at(h % 3)] = mesh.origin[at(h)]
+        corners[at(f), at(h % 3)] = 3 * order[at(source // 3)] + source % 3
+
+
+@jit
+def _lowest(faces):
+    lowest = np.empty(len(faces), np.int32)
+    for f in range(len(faces)):
+        lowest[f] = min(faces[f, 0], faces[f, 1], faces[f, 2])
+    return lowest
 
 
 def build(vertices, faces):

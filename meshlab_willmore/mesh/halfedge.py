@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .jit import jit
+from .jit import at, inlined, jit
 from .points import Point, norm, point, subtract
 
 NONE = -1
@@ -66,31 +66,31 @@ class Diamond(NamedTuple):
     l: Point
 
 
-@jit
+@inlined
 def following(h):
     """Return the next half-edge of the face."""
     return h - 2 if h % 3 == 2 else h + 1
 
 
-@jit
+@inlined
 def previous(h):
     """Return the previous half-edge of the face."""
     return h + 2 if h % 3 == 0 else h - 1
 
 
-@jit
+@inlined
 def apex(mesh, h):
     """Return the vertex of the face of `h` that is not on `h`."""
-    return mesh.origin[previous(h)]
+    return mesh.origin[at(previous(h))]
 
 
-@jit
+@inlined
 def diamond(mesh, h):
     """Return the four points around `h`, which must have a twin."""
-    t = mesh.twin[h]
+    t = mesh.twin[at(h)]
     return Diamond(
-        point(mesh.vertices, mesh.origin[h]),
-        point(mesh.vertices, mesh.origin[t]),
+        point(mesh.vertices, mesh.origin[at(h)]),
+        point(mesh.vertices, mesh.origin[at(t)]),
         point(mesh.vertices, apex(mesh, h)),
         point(mesh.vertices, apex(mesh, t)),
     )
@@ -112,20 +112,20 @@ def next_in_fan(mesh, h):
 
     An open fan is read as a ring too: its last half-edge is followed by its first.
     """
-    t = mesh.twin[h]
+    t = mesh.twin[at(h)]
     if t != NONE:
         return following(t)
-    before = mesh.twin[previous(h)]
+    before = mesh.twin[at(previous(h))]
     while before != NONE:
         h = before
-        before = mesh.twin[previous(h)]
+        before = mesh.twin[at(previous(h))]
     return h
 
 
 @jit
 def _has_corner(mesh, h, v):
     """Tell whether `v` is one of the two vertices opposite to the origin of `h` in its face."""
-    return mesh.origin[following(h)] == v or mesh.origin[previous(h)] == v
+    return mesh.origin[at(following(h))] == v or mesh.origin[at(previous(h))] == v
 
 
 @jit
@@ -154,13 +154,13 @@ def is_free(mesh, h):
 
     A fan must not end with fewer than three edges. Only the two faces at `h` are looked at.
     """
-    t = mesh.twin[h]
-    if t == NONE or mesh.locked[h]:
+    t = mesh.twin[at(h)]
+    if t == NONE or mesh.locked[at(h)]:
         return False
     # An interior vertex with three edges needs no test: there, k-l is an edge already.
-    if mesh.twin[previous(h)] == NONE and mesh.twin[following(t)] == NONE:
-        return False
-    return mesh.twin[following(h)] != NONE or mesh.twin[previous(t)] != NONE
+    k_i, i_l = mesh.twin[at(previous(h))], mesh.twin[at(following(t))]
+    j_k, l_j = mesh.twin[at(following(h))], mesh.twin[at(previous(t))]
+    return ((k_i != NONE) | (i_l != NONE)) & ((j_k != NONE) | (l_j != NONE))
 
 
 @jit
@@ -183,10 +183,10 @@ def can_flip(mesh, h):
 @jit
 def _glue(mesh, h, outer, is_locked):
     """Make `h` and `outer` (or `NONE`) twins; `outer` knows already whether it is locked."""
-    mesh.twin[h] = outer
-    mesh.locked[h] = is_locked
+    mesh.twin[at(h)] = outer
+    mesh.locked[at(h)] = is_locked
     if outer != NONE:
-        mesh.twin[outer] = h
+        mesh.twin[at(outer)] = h
 
 
 @jit
@@ -210,15 +210,18 @@ def flip(mesh, h):
     t = mesh.twin[h]
     j_k, k_i = following(h), previous(h)
     i_l, l_j = following(t), previous(t)
-    i, j, k, l = mesh.origin[h], mesh.origin[t], mesh.origin[k_i], mesh.origin[l_j]
-    at_i, at_j, at_k, at_l = mesh.corner[h], mesh.corner[t], mesh.corner[k_i], mesh.corner[l_j]
-    outer = mesh.twin[j_k], mesh.twin[k_i], mesh.twin[i_l], mesh.twin[l_j]
-    locks = mesh.locked[j_k], mesh.locked[k_i], mesh.locked[i_l], mesh.locked[l_j]
+    i, j = mesh.origin[at(h)], mesh.origin[at(t)]
+    k, l = mesh.origin[at(k_i)], mesh.origin[at(l_j)]
+    at_i, at_j = mesh.corner[at(h)], mesh.corner[at(t)]
+    at_k, at_l = mesh.corner[at(k_i)], mesh.corner[at(l_j)]
+    a, b, c, d = at(j_k), at(k_i), at(i_l), at(l_j)
+    outer = mesh.twin[a], mesh.twin[b], mesh.twin[c], mesh.twin[d]
+    locks = mesh.locked[a], mesh.locked[b], mesh.locked[c], mesh.locked[d]
 
-    mesh.origin[h], mesh.origin[j_k], mesh.origin[k_i] = l, k, i
-    mesh.origin[t], mesh.origin[i_l], mesh.origin[l_j] = k, l, j
-    mesh.corner[h], mesh.corner[j_k], mesh.corner[k_i] = at_l, at_k, at_i
-    mesh.corner[t], mesh.corner[i_l], mesh.corner[l_j] = at_k, at_l, at_j
+    mesh.origin[at(h)], mesh.origin[at(j_k)], mesh.origin[at(k_i)] = l, k, i
+    mesh.origin[at(t)], mesh.origin[at(i_l)], mesh.origin[at(l_j)] = k, l, j
+    mesh.corner[at(h)], mesh.corner[at(j_k)], mesh.corner[at(k_i)] = at_l, at_k, at_i
+    mesh.corner[at(t)], mesh.corner[at(i_l)], mesh.corner[at(l_j)] = at_k, at_l, at_j
     _glue(mesh, j_k, outer[1], locks[1])
     _glue(mesh, k_i, outer[2], locks[2])
     _glue(mesh, i_l, outer[3], locks[3])

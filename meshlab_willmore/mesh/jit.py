@@ -1,16 +1,20 @@
-"""The two spellings of Numba's decorator that this package uses.
+"""The spellings of Numba's decorator that this package uses.
 
 ``jit`` is for kernels that take arrays and numbers: compiled once, kept on disk. ``generic`` is
 for kernels that take another kernel as a parameter. Numba can never find these in its disk cache
 and would write a new file in every process, so they are not cached; a thin ``jit`` entry that
-fixes the parameter is (see `meshlab_willmore.search.entries`).
+fixes the parameter is (see `meshlab_willmore.search.entries`). ``inlined`` is for the arithmetic
+in loops that the compiler should turn into vector instructions, which a call in the loop prevents.
 """
 
+import numpy as np
 from numba import njit
 
 # Division by zero gives inf or nan, as in NumPy: kernels test for finite results where it matters.
-generic = njit(error_model="numpy")
-_cached = njit(cache=True, error_model="numpy")
+# Kernels touch no Python object, so other threads may run meanwhile.
+generic = njit(error_model="numpy", nogil=True)
+inlined = njit(error_model="numpy", forceinline=True)
+_cached = njit(cache=True, error_model="numpy", nogil=True)
 
 
 def jit(function):
@@ -25,3 +29,13 @@ def jit(function):
         return _cached(function)
     except RuntimeError:
         return generic(function)
+
+
+@inlined
+def at(index):
+    """Return `index`, which must not be negative, as an unsigned number.
+
+    Numba counts a signed index that is negative from the end, as Python does. To find out whether
+    it is takes time at each access, and keeps loops from becoming vector instructions.
+    """
+    return np.uint64(index)

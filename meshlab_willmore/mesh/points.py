@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-from .jit import jit
+from .jit import at, inlined
 
 
 class Point(NamedTuple):
@@ -14,19 +14,20 @@ class Point(NamedTuple):
     z: float
 
 
-@jit
+@inlined
 def point(vertices, v):
     """Return row `v` of the coordinates `vertices` (n, 3)."""
-    return Point(vertices[v, 0], vertices[v, 1], vertices[v, 2])
+    row = at(v)
+    return Point(vertices[row, 0], vertices[row, 1], vertices[row, 2])
 
 
-@jit
+@inlined
 def subtract(a, b):
     """Return the vector from `b` to `a`."""
     return Point(a.x - b.x, a.y - b.y, a.z - b.z)
 
 
-@jit
+@inlined
 def from_middle(a, b, p):
     """Return the vector to `p` from the point halfway between `a` and `b`.
 
@@ -37,7 +38,7 @@ def from_middle(a, b, p):
     return Point(0.5 * (a_p.x + b_p.x), 0.5 * (a_p.y + b_p.y), 0.5 * (a_p.z + b_p.z))
 
 
-@jit
+@inlined
 def from_between(a, b, t, p):
     """Return the vector to `p` from the point ``a + t (b - a)``, with t in [0, 1].
 
@@ -48,31 +49,31 @@ def from_between(a, b, t, p):
     return Point(s * a_p.x + t * b_p.x, s * a_p.y + t * b_p.y, s * a_p.z + t * b_p.z)
 
 
-@jit
+@inlined
 def dot(a, b):
     """Return the scalar product."""
     return a.x * b.x + a.y * b.y + a.z * b.z
 
 
-@jit
+@inlined
 def cross(a, b):
     """Return the vector product."""
     return Point(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
 
 
-@jit
+@inlined
 def norm(a):
     """Return the length of the vector `a`."""
     return math.sqrt(dot(a, a))
 
 
-@jit
+@inlined
 def normal(a, b, c):
     """Return the normal of the triangle (a, b, c); its length is twice the area."""
     return cross(subtract(b, a), subtract(c, a))
 
 
-@jit
+@inlined
 def angle_between(a, b):
     """Return the angle between two vectors in [0, pi]; 0 where one of them is zero."""
     # With a zero vector the product may be -0.0, and the angle would be pi.

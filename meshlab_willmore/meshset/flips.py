@@ -31,7 +31,7 @@ ENERGIES = (
     "gaussian curvature",
     "delaunay",
 )
-SEARCHES = ("greedy", "variable depth", "annealing", "thorough")
+SEARCHES = ("parallel greedy", "greedy", "variable depth", "annealing", "thorough")
 PLACES = ("midpoint", "closest")
 
 
@@ -92,7 +92,8 @@ _PARAMETERS = (
         str,
         SEARCHES[0],
         "Search",
-        "How it is minimised. 'greedy': always the flip that lowers the energy most; the quickest. "
+        "How it is minimised. 'parallel greedy': all flips at once that gain more than any around "
+        "them, on all cores; the quickest. 'greedy': one by one, always the best of all. "
         "'variable depth': then chains of several flips that may go through a loss; much better "
         "where the triangulation is bad. 'annealing': random flips that cool down; slow. "
         "'thorough': chains from several starts, for a result that hardly depends on how the mesh "
@@ -258,7 +259,8 @@ _RETURNS = (
         "gain",
         "float",
         "What the energy has dropped by, in its unit; for 'virtual willmore' the sum over the "
-        "flips with 'greedy' and 'variable depth', the drop of the Willmore energy else.",
+        "flips with the greedy searches and 'variable depth', else the drop of the Willmore "
+        "energy.",
     ),
     ("willmore_before", "float", "Willmore energy before, over interior vertices, in radians."),
     ("willmore_after", "float", "Willmore energy after, over interior vertices, in radians."),

@@ -36,7 +36,7 @@ from ..guards import space as spaces
 from ..guards.space import Space
 from ..mesh.halfedge import NONE, Mesh, flip, is_free, makes_new_edge
 from ..mesh.jit import generic, jit
-from .greedy import CONVERGED, STOPPED, WORKING, Rules
+from .rules import CONVERGED, STOPPED, WORKING, Rules
 from .states import State, assign, better, copy_of, descend, finish, start_from
 
 # Tries between two looks at the keyboard: some hundredths of a second.

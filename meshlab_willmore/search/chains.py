@@ -23,8 +23,8 @@ from ..mesh.halfedge import (
     previous,
 )
 from ..mesh.jit import generic, jit
-from .greedy import Rules
 from .pending import Pending
+from .rules import Rules
 from .scoring import gain_of
 
 RING = 12

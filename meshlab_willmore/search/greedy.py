@@ -33,70 +33,22 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .. import guards
 from ..energy import willmore
-from ..guards import cuts
 from ..guards import space as spaces
 from ..guards.space import Space
-from ..mesh.halfedge import (
-    NONE,
-    Mesh,
-    apex,
-    flip,
-    following,
-    is_free,
-    makes_new_edge,
-    next_in_fan,
-    previous,
-)
+from ..mesh.halfedge import NONE, Mesh, flip, makes_new_edge
 from ..mesh.jit import generic, jit
+from . import rescoring
 from .heap import NEVER, Queue, empty_queue, first, update
-from .pairs import Pairs, contains, insert, no_pairs, reserve
+from .pairs import Pairs, insert, no_pairs, reserve
+from .rules import CONVERGED, STOPPED, WORKING, Progress, Rules, brings_back, is_blocked
 from .scoring import gain_of
-from .waiting import Waiting, leave, nothing_waits, wait
+from .touched import visit_around, visit_fans, visit_freed
+from .waiting import Waiting, leave, nothing_waits
 
-WORKING, CONVERGED, STOPPED = range(3)
 # Work between two looks at the keyboard, counted in scored edges: some hundredths of a second.
 SLICE = 40_000
 SCORES_PER_FLIP = 16
-# Edges at and opposite to the corners of a diamond where all is regular.
-AROUND = 72
-NO_LIMIT = 2**62
-
-
-class Rules(NamedTuple):
-    """Which flips are made.
-
-    Attributes
-    ----------
-    fold : FoldLimits
-        The fold guard.
-    monotone : bool
-        Whether the Willmore energy must not rise.
-    maxflips : int
-        Number of flips after which to stop.
-    tolerance : float
-        A cost reduction must exceed this (in units of the energy); planar parallelograms tie at 0.
-    tie : float
-        A change of the Willmore energy (radians) up to this counts as none.
-    rank_step : float
-        Cost reductions are ranked in steps of this size (in units of the energy). Edges that are
-        equal by symmetry then go by number, and not by rounding, which a rotation would change.
-    is_potential, is_wide : bool
-        As in `meshlab_willmore.energy.kinds.Kind`.
-    virtualpoint : float
-        Place of the virtual points in (0, 1), for the energies that ask for it.
-    """
-
-    fold: guards.FoldLimits
-    monotone: bool = True
-    maxflips: int = NO_LIMIT
-    tolerance: float = 1e-7
-    tie: float = 1e-12
-    rank_step: float = 1e-9
-    is_potential: bool = False
-    is_wide: bool = False
-    virtualpoint: float = 0.5
 
 
 class Task(NamedTuple):
@@ -110,114 +62,6 @@ class Task(NamedTuple):
     waiting: Waiting
 
 
-class Progress(NamedTuple):
-    """How far a search is: half-edges scored at first, flips made, their cost reductions, state."""
-
-    scored: int
-    flips: int
-    gain: float
-    state: int
-
-
-@generic
-def rank(mesh, h, rules, cost_reduction):
-    """Return the rank of `h` in the queue, or `NEVER` where it must not be flipped."""
-    if not is_free(mesh, h):
-        return NEVER
-    gain = gain_of(cost_reduction, mesh, h, rules)
-    if not gain > rules.tolerance:
-        return NEVER
-    if rules.monotone and willmore.cost_reduction(mesh, h) < -rules.tie:
-        return NEVER
-    if guards.folds(mesh, h, rules.fold):
-        return NEVER
-    # Last, since it alone takes longer than O(1).
-    if not makes_new_edge(mesh, h):
-        return NEVER
-    return np.rint(gain / rules.rank_step)
-
-
-@generic
-def _rescore(task, h, cost_reduction):
-    """Bring the queue up to date with the edge of `h`; its entry stands under the lower twin."""
-    t = task.mesh.twin[h]
-    if t == NONE:
-        update(task.queue, h, NEVER)
-        return
-    low, high = min(h, t), max(h, t)
-    update(task.queue, high, NEVER)
-    update(task.queue, low, rank(task.mesh, low, task.rules, cost_reduction))
-
-
-@generic
-def _rescore_around(task, h, cost_reduction):
-    """Rescore the at most 13 edges whose cost reduction the flip of `h` has changed."""
-    mesh = task.mesh
-    t = mesh.twin[h]
-    _rescore(task, h, cost_reduction)
-    for side in (following(h), previous(h), following(t), previous(t)):
-        _rescore(task, side, cost_reduction)
-        outside = mesh.twin[side]
-        if outside != NONE:
-            _rescore(task, following(outside), cost_reduction)
-            _rescore(task, previous(outside), cost_reduction)
-
-
-@generic
-def _rescore_fans(task, h, cost_reduction):
-    """Rescore the edges at, and opposite to, the corners of the diamond of `h`.
-
-    Returns
-    -------
-    int
-        What that costs: each score walks round such a corner again.
-    """
-    mesh, edges = task.mesh, 0
-    t = np.int64(mesh.twin[h])
-    for spoke in (h, previous(h), t, previous(t)):
-        # A vertex of several fans has no curvature, but its faces still have the other corners.
-        x = spoke
-        while True:
-            _rescore(task, x, cost_reduction)
-            _rescore(task, previous(x), cost_reduction)
-            _rescore(task, following(x), cost_reduction)
-            edges += 3
-            x = next_in_fan(mesh, x)
-            if x == spoke:
-                break
-    return edges * edges // AROUND
-
-
-@generic
-def _rescore_opposite(task, spoke, v, cost_reduction):
-    """Rescore the edge opposite to the origin of `spoke` if the apex on its other side is `v`."""
-    side = following(spoke)
-    outside = task.mesh.twin[side]
-    if outside != NONE and apex(task.mesh, outside) == v:
-        _rescore(task, side, cost_reduction)
-
-
-@generic
-def _rescore_freed(task, h, cost_reduction):
-    """Rescore the edges whose flip was forbidden because it leads to i-j, which `h` was before.
-
-    They lie opposite to i and to j, so it is enough to walk round one of both; as in `are_joined`
-    both are walked in step. Where both have several fans, no edge can be flipped to i-j.
-    """
-    mesh = task.mesh
-    a, b = previous(h), previous(mesh.twin[h])
-    i, j = mesh.origin[a], mesh.origin[b]
-    if mesh.several_fans[i] and mesh.several_fans[j]:
-        return
-    x, y = a, b
-    while True:
-        _rescore_opposite(task, x, j, cost_reduction)
-        _rescore_opposite(task, y, i, cost_reduction)
-        x, y = next_in_fan(mesh, x), next_in_fan(mesh, y)
-        if (x == a and not mesh.several_fans[i]) or (y == b and not mesh.several_fans[j]):
-            break
-
-
 @jit
 def _must_stay_away(task, h):
     """Tell whether the edge of `h` must not come back once flipped: the flip lowers no energy."""
@@ -227,32 +71,13 @@ def _must_stay_away(task, h):
     return not rules.monotone or willmore.cost_reduction(task.mesh, h) <= 2.0 * rules.tie
 
 
-@jit
-def _brings_back(task, h):
-    """Tell whether the flip of `h` makes an edge that has to stay away."""
-    mesh = task.mesh
-    return contains(task.gone, apex(mesh, h), apex(mesh, mesh.twin[h]))
-
-
-@jit
-def _is_blocked(task, h):
-    """Tell whether a new face would cut another one, and if so, wait until that changes."""
-    if not task.space.active:
-        return False
-    face = cuts.blocker(task.mesh, task.space, h)
-    if face == NONE:
-        return False
-    wait(task.waiting, h, face)
-    return True
-
-
 @generic
 def _rescore_waiting(task, face, cost_reduction):
     """Rescore the edges that have waited for a change of `face`."""
     h = np.int64(task.waiting.first[face])
     while h != NONE:
         leave(task.waiting, h)
-        _rescore(task, h, cost_reduction)
+        rescoring.rescore(task, h, cost_reduction)
         h = np.int64(task.waiting.first[face])
 
 
@@ -262,10 +87,10 @@ def _flip(task, h, cost_reduction):
     work = SCORES_PER_FLIP
     flip(task.mesh, h)
     if task.rules.is_wide:
-        work += _rescore_fans(task, h, cost_reduction)
+        work += visit_fans(task, h, rescoring.rescore, cost_reduction)
     else:
-        _rescore_around(task, h, cost_reduction)
-    _rescore_freed(task, h, cost_reduction)
+        visit_around(task, h, rescoring.rescore, cost_reduction)
+    visit_freed(task, h, rescoring.rescore, cost_reduction)
     if task.space.active:
         spaces.follow(task.mesh, task.space, h)
         _rescore_waiting(task, h // 3, cost_reduction)
@@ -298,7 +123,7 @@ def advance(task, progress, cost_reduction):
         stop = min(scored + SLICE, len(mesh.origin))
         for h in range(scored, stop):
             if h < mesh.twin[h]:
-                update(queue, h, rank(mesh, h, task.rules, cost_reduction))
+                update(queue, h, rescoring.rank(mesh, h, task.rules, cost_reduction))
         return stop, flips, gain, WORKING
     work = 0
     while work < SLICE:
@@ -308,8 +133,8 @@ def advance(task, progress, cost_reduction):
         keep_away = _must_stay_away(task, h)
         if (
             not makes_new_edge(mesh, h)
-            or (keep_away and _brings_back(task, h))
-            or _is_blocked(task, h)
+            or (keep_away and brings_back(mesh, task.gone, h))
+            or is_blocked(task, h)
         ):
             update(queue, h, NEVER)
             work += SCORES_PER_FLIP

@@ -14,6 +14,8 @@ class Kernels(NamedTuple):
     ----------
     greedy, depth, anneal : callable
         The slices of the searches.
+    score : callable
+        Scores many edges, for `meshlab_willmore.search.parallel_greedy`.
     losses : callable
         `meshlab_willmore.search.annealing.find_losses`.
     total : callable
@@ -24,6 +26,7 @@ class Kernels(NamedTuple):
     greedy: Callable
     depth: Callable
     anneal: Callable
+    score: Callable
     losses: Callable
     total: Callable
 
@@ -33,6 +36,7 @@ KERNELS = {
         entries.greedy_virtual,
         entries.depth_virtual,
         entries.anneal_willmore,
+        entries.score_virtual,
         entries.losses_willmore,
         KINDS["virtual willmore"].total,
     ),
@@ -40,6 +44,7 @@ KERNELS = {
         entries.greedy_willmore,
         entries.depth_willmore,
         entries.anneal_willmore,
+        entries.score_willmore,
         entries.losses_willmore,
         KINDS["willmore"].total,
     ),
@@ -47,6 +52,7 @@ KERNELS = {
         entries.greedy_uniform,
         entries.depth_uniform,
         entries.anneal_uniform,
+        entries.score_uniform,
         entries.losses_uniform,
         KINDS["uniform virtual willmore"].total,
     ),
@@ -54,6 +60,7 @@ KERNELS = {
         entries.greedy_area,
         entries.depth_area,
         entries.anneal_area,
+        entries.score_area,
         entries.losses_area,
         KINDS["area"].total,
     ),
@@ -61,6 +68,7 @@ KERNELS = {
         entries.greedy_mean,
         entries.depth_mean,
         entries.anneal_mean,
+        entries.score_mean,
         entries.losses_mean,
         KINDS["mean curvature"].total,
     ),
@@ -68,6 +76,7 @@ KERNELS = {
         entries.greedy_gaussian,
         entries.depth_gaussian,
         entries.anneal_gaussian,
+        entries.score_gaussian,
         entries.losses_gaussian,
         KINDS["gaussian curvature"].total,
     ),
@@ -75,6 +84,7 @@ KERNELS = {
         entries.greedy_delaunay,
         entries.depth_delaunay,
         entries.anneal_delaunay,
+        entries.score_delaunay,
         entries.losses_delaunay,
         KINDS["delaunay"].total,
     ),
@@ -84,9 +94,13 @@ AT = "at"
 PLACED_KERNELS = {
     "midpoint": KERNELS["virtual willmore"],
     "closest": KERNELS["virtual willmore"]._replace(
-        greedy=entries.greedy_virtual_closest, depth=entries.depth_virtual_closest
+        greedy=entries.greedy_virtual_closest,
+        depth=entries.depth_virtual_closest,
+        score=entries.score_virtual_closest,
     ),
     AT: KERNELS["virtual willmore"]._replace(
-        greedy=entries.greedy_virtual_at, depth=entries.depth_virtual_at
+        greedy=entries.greedy_virtual_at,
+        depth=entries.depth_virtual_at,
+        score=entries.score_virtual_at,
     ),
 }

@@ -12,7 +12,7 @@ from ..guards.space import Space
 from ..mesh.halfedge import Mesh
 from ..mesh.jit import jit
 from . import greedy
-from .greedy import WORKING, Progress
+from .rules import WORKING, Progress
 
 
 class State(NamedTuple):

@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 from ..guards import space as spaces
 from . import greedy, variable_depth
-from .greedy import Rules
+from .rules import Rules
 from .states import better, extend, finish, start_from
 
 

@@ -46,8 +46,9 @@ from ..mesh.halfedge import apex, flip, is_free, makes_new_edge
 from ..mesh.jit import generic, jit
 from . import greedy
 from .chains import Task, find_chain, no_chain, ring_around
-from .greedy import CONVERGED, SLICE, STOPPED, WORKING, Progress
+from .greedy import SLICE
 from .pending import append, nothing_pending, queue_all, queue_blocked, queue_near, take_first
+from .rules import CONVERGED, STOPPED, WORKING, Progress
 
 # What the harmonic index must gain by a flip to cast doubt on a place.
 DOUBT = 1e-7

@@ -8,9 +8,11 @@ from meshlab_willmore.energy import virtual, willmore
 from meshlab_willmore.guards.space import no_space
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import NONE, can_flip, flip
-from meshlab_willmore.search import annealing, greedy, states
+from meshlab_willmore.search import annealing, greedy, rescoring, states
 from meshlab_willmore.search.annealing import Schedule
+from meshlab_willmore.search.heap import NEVER
 from meshlab_willmore.search.kernels import KERNELS
+from meshlab_willmore.search.rules import CONVERGED, STOPPED
 from tests import meshes
 from tests.search.ways import (
     FREE,
@@ -70,7 +72,7 @@ def test_the_walk_and_its_best_state_are_those_of_the_slow_one(name):
     loss = annealing._median_loss(WILLMORE, mesh, rules)
     assert loss == pytest.approx(np.median(losses) if losses else 0.0, rel=1e-12)
     seen = list(walk_slowly(states.copy_of(mesh), rules, SHORT, loss))
-    start = states.State(mesh, no_space(), 5, greedy.CONVERGED)
+    start = states.State(mesh, no_space(), 5, CONVERGED)
     last, best = annealing._anneal(WILLMORE, start, rules, SHORT, loss)
     assert last.flips == seen[-1][0] + 5
     assert last.flips > 20 + 5
@@ -96,7 +98,7 @@ def test_the_best_state_lies_on_the_way_not_at_its_end():
     """Hot until the end, so that the state on the way is the one that counts."""
     mesh, rules = MESHES["closed"](), rules_for("willmore")
     hot = Schedule(sweeps=30, seed=3, hot=1.0, cold=1.0)
-    begin = states.State(mesh, no_space(), 0, greedy.CONVERGED)
+    begin = states.State(mesh, no_space(), 0, CONVERGED)
     last, best = annealing._anneal(WILLMORE, begin, rules, hot, 1.0)
     assert 0 < best.flips < last.flips
     assert willmore.total(best.mesh) < willmore.total(last.mesh) - 1.0
@@ -112,7 +114,7 @@ def test_never_worse_than_greedy_and_its_gain_is_the_drop(energy, name):
     wanted = greedy.run(kernels.greedy, greedily, rules)
     progress = annealing.run(kernels, mesh, rules, SHORT)
     validate_connectivity(mesh)
-    assert progress.state == greedy.CONVERGED
+    assert progress.state == CONVERGED
     assert kernels.total(mesh) <= kernels.total(greedily)
     assert progress.flips >= wanted.flips
     drop = kernels.total(start) - kernels.total(mesh)
@@ -140,7 +142,7 @@ def test_the_virtual_energy_leads_and_the_true_one_judges(monotone):
         left = [
             virtual.cost_reduction(mesh, h)
             for h in np.flatnonzero(mesh.twin != NONE)
-            if greedy.rank(mesh, h, rules, virtual.cost_reduction) > greedy.NEVER
+            if rescoring.rank(mesh, h, rules, virtual.cost_reduction) > NEVER
         ]
         assert not left
 
@@ -150,7 +152,7 @@ def test_the_same_seed_gives_the_same_mesh_and_another_seed_another():
     for seed in (0, 0, 1):
         mesh = MESHES["closed"]()
         schedule = SHORT._replace(seed=seed, sweeps=8)
-        begin = states.State(mesh, no_space(), 0, greedy.CONVERGED)
+        begin = states.State(mesh, no_space(), 0, CONVERGED)
         results.append(annealing._anneal(WILLMORE, begin, rules, schedule, 2.0)[0])
     assert results[0].flips == results[1].flips != results[2].flips
     assert_equal(results[0].mesh, results[1].mesh)
@@ -202,7 +204,7 @@ def test_maxflips_counts_every_flip_on_the_way():
         assert progress.flips <= limit
         assert progress.gain == pytest.approx(start - willmore.total(mesh), abs=1e-9)
         if limit < greedily.flips:
-            assert progress.state == greedy.STOPPED
+            assert progress.state == STOPPED
             assert progress.flips == limit
         else:
             assert progress.gain >= greedily.gain - 1e-9
@@ -211,10 +213,10 @@ def test_maxflips_counts_every_flip_on_the_way():
 
 def test_a_walk_stops_at_the_limit():
     rules = rules_for("willmore")._replace(maxflips=12)
-    begin = states.State(MESHES["closed"](), no_space(), 5, greedy.CONVERGED)
+    begin = states.State(MESHES["closed"](), no_space(), 5, CONVERGED)
     last, best = annealing._anneal(WILLMORE, begin, rules, SHORT, 2.0)
     assert last.flips == 12
-    assert last.state == best.state == greedy.STOPPED
+    assert last.state == best.state == STOPPED
     assert 5 <= best.flips <= 12
 
 
@@ -223,7 +225,7 @@ def test_a_mesh_with_nothing_to_lose_is_left_alone():
     mesh = MESHES["closed"]()
     mesh.locked[:] = mesh.twin != NONE
     progress = annealing.run(WILLMORE, mesh, rules_for("willmore"), SHORT)
-    assert progress[1:] == (0, 0.0, greedy.CONVERGED)
+    assert progress[1:] == (0, 0.0, CONVERGED)
 
 
 OPTIMA = [

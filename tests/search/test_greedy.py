@@ -12,6 +12,7 @@ from meshlab_willmore.guards.space import space_of
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import apex, can_flip, flip
 from meshlab_willmore.search import entries, greedy
+from meshlab_willmore.search.rules import CONVERGED, STOPPED, Rules
 from tests import meshes
 from tests.guards import brute
 from tests.search.ways import shuffled
@@ -84,14 +85,14 @@ def flips_by_scanning(mesh, rules, cost_reduction, is_blocked=lambda mesh, h: Fa
 @pytest.mark.parametrize("energy", KERNELS)
 def test_the_queue_finds_what_a_scan_finds(energy, fold, monotone, name):
     kernel, cost_reduction = KERNELS[energy]
-    rules = greedy.Rules(fold, monotone, MANY)
+    rules = Rules(fold, monotone, MANY)
     scanned, searched = build(*MESHES[name]), build(*MESHES[name])
     flips, gain = flips_by_scanning(scanned, rules, cost_reduction)
     progress = greedy.run(kernel, searched, rules)
     validate_connectivity(searched)
     assert progress.flips == flips
     assert progress.gain == pytest.approx(gain, rel=1e-12)
-    assert progress.state == greedy.CONVERGED
+    assert progress.state == CONVERGED
     np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))
 
 
@@ -113,7 +114,7 @@ CROWDED = {
 @pytest.mark.parametrize("energy", KERNELS)
 def test_blocked_edges_are_tried_again_once_a_scan_would(energy, monotone, name):
     kernel, cost_reduction = KERNELS[energy]
-    rules = greedy.Rules(FREE, monotone, MANY)
+    rules = Rules(FREE, monotone, MANY)
     scanned, searched = build(*CROWDED[name]), build(*CROWDED[name])
     unguarded = build(*CROWDED[name])
     flips, _ = flips_by_scanning(
@@ -123,7 +124,7 @@ def test_blocked_edges_are_tried_again_once_a_scan_would(energy, monotone, name)
     validate_connectivity(searched)
     np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))
     assert progress.flips == flips
-    assert progress.state == greedy.CONVERGED
+    assert progress.state == CONVERGED
     greedy.run(kernel, unguarded, rules)
     assert (faces_of(unguarded) != faces_of(searched)).any()
 
@@ -134,7 +135,7 @@ def test_an_edge_freed_by_a_flip_elsewhere_is_flipped_too(count, seed):
 
     In these meshes that edge is not among the 13 around the flip, and the gain is worth taking.
     """
-    rules = greedy.Rules(FREE, True, MANY)
+    rules = Rules(FREE, True, MANY)
     mesh = shuffled(count, seed)
     greedy.run(entries.greedy_willmore, mesh, rules)
     gains = [willmore.cost_reduction(mesh, h) for h in flippable(mesh)]
@@ -144,13 +145,13 @@ def test_an_edge_freed_by_a_flip_elsewhere_is_flipped_too(count, seed):
 @pytest.mark.parametrize("energy", KERNELS)
 def test_maxflips_stops_on_the_way(energy):
     kernel, _ = KERNELS[energy]
-    everything = greedy.run(kernel, build(*MESHES["closed"]), greedy.Rules(GUARDED, True, MANY))
+    everything = greedy.run(kernel, build(*MESHES["closed"]), Rules(GUARDED, True, MANY))
     gains = []
     for limit in range(everything.flips + 2):
-        progress = greedy.run(kernel, build(*MESHES["closed"]), greedy.Rules(GUARDED, True, limit))
+        progress = greedy.run(kernel, build(*MESHES["closed"]), Rules(GUARDED, True, limit))
         assert progress.flips == min(limit, everything.flips)
         done = limit >= everything.flips
-        assert progress.state == (greedy.CONVERGED if done else greedy.STOPPED)
+        assert progress.state == (CONVERGED if done else STOPPED)
         gains.append(progress.gain)
     assert (np.diff(gains[:-1]) > 0.0).all()
     assert gains[-1] == gains[-2] == everything.gain
@@ -161,16 +162,16 @@ def test_the_cycle_on_a_random_torus_ends(monotone):
     """Literal descent on the virtual energy goes round a 4-cycle for ever on this mesh."""
     vertices, faces = meshes.torus(200, None, 1)
     mesh = build(vertices, faces)
-    progress = greedy.run(entries.greedy_virtual, mesh, greedy.Rules(GUARDED, monotone, MANY))
+    progress = greedy.run(entries.greedy_virtual, mesh, Rules(GUARDED, monotone, MANY))
     validate_connectivity(mesh)
-    assert progress.state == greedy.CONVERGED
+    assert progress.state == CONVERGED
 
 
 def test_ties_do_not_go_round_in_circles():
     """A tie so large that every flip counts as one: what a tie flipped away stays away."""
     mesh = build(*meshes.torus(200, None, 1))
-    progress = greedy.run(entries.greedy_virtual, mesh, greedy.Rules(FREE, True, MANY, tie=100.0))
-    assert progress.state == greedy.CONVERGED
+    progress = greedy.run(entries.greedy_virtual, mesh, Rules(FREE, True, MANY, tie=100.0))
+    assert progress.state == CONVERGED
     assert progress.flips > 100
 
 
@@ -222,7 +223,7 @@ def tuned(quantity, target):
 )
 def test_the_monotone_rule_forgives_rounding_only(drop, options, flips):
     vertices, faces, h = tuned(willmore.cost_reduction, drop)
-    rules = greedy.Rules(FREE, maxflips=MANY)._replace(**options)
+    rules = Rules(FREE, maxflips=MANY)._replace(**options)
     mesh = all_but(build(vertices, faces), h)
     assert greedy.run(entries.greedy_virtual, mesh, rules).flips == flips
 
@@ -231,7 +232,7 @@ def test_the_monotone_rule_forgives_rounding_only(drop, options, flips):
 def test_a_flip_must_be_worth_more_than_the_tolerance(gain, flips):
     vertices, faces, h = tuned(virtual.cost_reduction, gain)
     mesh = all_but(build(vertices, faces), h)
-    rules = greedy.Rules(FREE, False, MANY)
+    rules = Rules(FREE, False, MANY)
     assert greedy.run(entries.greedy_virtual, mesh, rules).flips == flips
 
 
@@ -244,7 +245,7 @@ def test_gains_that_differ_by_rounding_only_go_by_number(ahead, first):
     both = np.vstack([faces, faces + len(one)])
     free = h, h + faces.size
     mesh = all_but(build(np.vstack([one, other]), both), *free)
-    greedy.run(entries.greedy_virtual, mesh, greedy.Rules(FREE, False, maxflips=1))
+    greedy.run(entries.greedy_virtual, mesh, Rules(FREE, False, maxflips=1))
     changed = (faces_of(mesh) != both).any(axis=1).reshape(2, -1).any(axis=1)
     assert changed.tolist() == [first == 0, first == 1]
 
@@ -260,7 +261,7 @@ def test_no_half_edge_is_left_out_where_a_slice_of_the_scoring_ends(place):
     mesh = build(np.vstack([vertices, far]), np.vstack([filler[:face] + len(vertices), ahead]))
     all_but(mesh, place)
     assert place < mesh.twin[place]
-    rules = greedy.Rules(FREE, False, MANY)
+    rules = Rules(FREE, False, MANY)
     assert greedy.run(entries.greedy_virtual, mesh, rules).flips == 1
 
 

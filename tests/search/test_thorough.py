@@ -8,6 +8,7 @@ from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.search import greedy, states, thorough, variable_depth
 from meshlab_willmore.search.chains import Reach
 from meshlab_willmore.search.kernels import KERNELS
+from meshlab_willmore.search.rules import CONVERGED, STOPPED
 from meshlab_willmore.search.thorough import Prelude
 from tests import meshes, reference
 from tests.search.ways import (
@@ -60,7 +61,7 @@ def test_it_is_the_best_of_its_starts(energy, name):
     ]
     assert progress.flips == chosen[0]
     assert progress.gain == pytest.approx(kernels.total(start) - total, rel=1e-12, abs=1e-12)
-    assert progress.state == greedy.CONVERGED
+    assert progress.state == CONVERGED
     assert locked_edges(mesh) == locked_edges(start)
     np.testing.assert_array_equal(mesh.origin, start.origin[mesh.corner])
 
@@ -95,7 +96,7 @@ def test_maxflips_counts_the_flips_on_the_way(limit):
     progress = thorough.run(kernels, preludes(*NAMES), mesh, limited, SHORT)
     assert progress.flips <= limit
     assert willmore.total(mesh) <= willmore.total(start)
-    assert progress.state == (greedy.STOPPED if limit < 10**6 else greedy.CONVERGED)
+    assert progress.state == (STOPPED if limit < 10**6 else CONVERGED)
     if limit == 10**6:
         assert progress == everything
     assert everything.flips > 20

@@ -16,6 +16,7 @@ from meshlab_willmore.mesh.points import norm, point, subtract
 from meshlab_willmore.search import chains, entries, greedy, states, variable_depth
 from meshlab_willmore.search import pending as pending_queue
 from meshlab_willmore.search.chains import Reach
+from meshlab_willmore.search.rules import CONVERGED, STOPPED, WORKING, Progress, Rules
 from tests import meshes, reference
 from tests.guards import brute
 from tests.search import ways
@@ -175,7 +176,7 @@ def search(energy, mesh, rules, reach):
 def test_the_search_finds_what_a_scan_finds(energy, reach, fold, name):
     """Also that to try again the edges near a change is as good as to try all again."""
     _, descent, rank, judge = ENERGIES[energy]
-    rules = greedy.Rules(fold)
+    rules = Rules(fold)
     scanned, searched = MESHES[name](), MESHES[name]()
     flips = greedy.run(descent, scanned, rules).flips
     if reach.breadth > 1:
@@ -186,7 +187,7 @@ def test_the_search_finds_what_a_scan_finds(energy, reach, fold, name):
     validate_connectivity(searched)
     np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))
     assert progress.flips == flips
-    assert progress.state == greedy.CONVERGED
+    assert progress.state == CONVERGED
 
 
 # Meshes on which the guard has something to do.
@@ -202,7 +203,7 @@ CROWDED = {
 @pytest.mark.parametrize("reach", [Reach(2, 1), Reach(3, 2)])
 def test_chains_blocked_by_cuts_are_tried_again_once_a_scan_would(reach, name):
     kernel, descent, rank, judge = ENERGIES["willmore"]
-    rules = greedy.Rules(FREE)
+    rules = Rules(FREE)
     scanned, searched, unguarded = (CROWDED[name]() for _ in range(3))
 
     def is_blocked(mesh, h):
@@ -218,7 +219,7 @@ def test_chains_blocked_by_cuts_are_tried_again_once_a_scan_would(reach, name):
     progress = variable_depth.run(kernel, descent, searched, rules, reach, space)
     np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))
     assert progress.flips == flips
-    assert progress.state == greedy.CONVERGED
+    assert progress.state == CONVERGED
     search("willmore", unguarded, rules, reach)
     assert (faces_of(unguarded) != faces_of(searched)).any()
     # The index has followed the flips that were tried, made and taken back.
@@ -255,7 +256,7 @@ def test_what_a_chain_tries_leaves_no_trace(reach, name):
     """Undone flips give back all arrays bit for bit, also the corners, which a flip merges."""
     mesh = MESHES[name]()
     before = states.copy_of(mesh)
-    task = new_task(mesh, greedy.Rules(FREE), reach)
+    task = new_task(mesh, Rules(FREE), reach)
     worked = 0
     for h in np.flatnonzero(mesh.twin != NONE):
         best, work = chains.find_chain(task, h, willmore.cost_reduction, None)
@@ -300,13 +301,13 @@ def test_the_ring_is_where_cost_reductions_change(name):
 @pytest.mark.parametrize(("count", "seed"), [(12, 23), (12, 32)])
 def test_two_flips_help_where_no_single_one_does(count, seed):
     vertices, faces = meshes.bumpy_sphere(count, seed)
-    rules = greedy.Rules(GUARDED)
+    rules = Rules(GUARDED)
     stuck = build(vertices, faces)
     assert search("willmore", stuck, rules, Reach(1, 1)).flips == 0
     mesh = build(vertices, faces)
     progress = search("willmore", mesh, rules, Reach(2, 1))
     assert progress.flips == 2
-    assert progress.state == greedy.CONVERGED
+    assert progress.state == CONVERGED
     drop = reference.objective(vertices, faces) - reference.objective(vertices, faces_of(mesh))
     assert drop > 1e-3
     assert progress.gain == pytest.approx(drop, rel=1e-9)
@@ -316,7 +317,7 @@ def test_two_flips_help_where_no_single_one_does(count, seed):
 @pytest.mark.parametrize("name", MESHES)
 def test_chains_of_one_flip_are_plain_descent(name):
     greedily, searched = MESHES[name](), MESHES[name]()
-    rules = greedy.Rules(GUARDED)
+    rules = Rules(GUARDED)
     wanted = greedy.run(entries.greedy_willmore, greedily, rules)
     found = search("willmore", searched, rules, Reach(1, 12))
     np.testing.assert_array_equal(faces_of(searched), faces_of(greedily))
@@ -327,19 +328,19 @@ def test_chains_of_one_flip_are_plain_descent(name):
 @pytest.mark.parametrize("name", MESHES)
 @pytest.mark.parametrize("energy", ENERGIES)
 def test_deeper_is_never_worse_than_greedy_and_a_minimum(energy, name):
-    rules, reach = greedy.Rules(GUARDED), Reach(4, 3)
+    rules, reach = Rules(GUARDED), Reach(4, 3)
     greedily, mesh = MESHES[name](), MESHES[name]()
     kernel, descent, rank, judge = ENERGIES[energy]
     greedy.run(descent, greedily, rules)
-    assert search(energy, mesh, rules, reach).state == greedy.CONVERGED
+    assert search(energy, mesh, rules, reach).state == CONVERGED
     assert willmore.total(mesh) <= willmore.total(greedily) + 1e-12
     task = new_task(mesh, rules, reach)
     for h in np.flatnonzero(mesh.twin != NONE):
         if h < mesh.twin[h]:
             assert chains.find_chain(task, h, rank, judge)[0][0] == 0
     again = states.copy_of(mesh)
-    state = kernel(task, greedy.Progress(0, 0, 0.0, greedy.WORKING))
-    assert state == (0, 0, 0.0, greedy.CONVERGED)
+    state = kernel(task, Progress(0, 0, 0.0, WORKING))
+    assert state == (0, 0, 0.0, CONVERGED)
     np.testing.assert_array_equal(mesh.origin, again.origin)
 
 
@@ -347,15 +348,15 @@ def test_deeper_is_never_worse_than_greedy_and_a_minimum(energy, name):
 @pytest.mark.parametrize("energy", ENERGIES)
 def test_maxflips_stops_before_a_chain_that_exceeds_it(energy):
     reach = Reach(3, 2)
-    everything = search(energy, MESHES["closed"](), greedy.Rules(GUARDED), reach)
+    everything = search(energy, MESHES["closed"](), Rules(GUARDED), reach)
     energies, flips = [], []
     for limit in range(everything.flips + 2):
         mesh = MESHES["closed"]()
-        progress = search(energy, mesh, greedy.Rules(GUARDED, True, limit), reach)
+        progress = search(energy, mesh, Rules(GUARDED, True, limit), reach)
         validate_connectivity(mesh)
         assert limit - reach.depth - 1 < progress.flips <= limit or limit > everything.flips
         done = limit >= everything.flips
-        assert progress.state == (greedy.CONVERGED if done else greedy.STOPPED)
+        assert progress.state == (CONVERGED if done else STOPPED)
         energies.append(willmore.total(mesh))
         flips.append(progress.flips)
     assert (np.diff(energies) <= 1e-12).all()
@@ -391,7 +392,7 @@ def length(mesh):
 @pytest.mark.parametrize("monotone", [True, False])
 def test_any_energy_will_do_and_the_monotone_rule_watches_the_true_one(monotone):
     """Chain by chain: the length falls, and the Willmore energy never rises under the rule."""
-    rules = greedy.Rules(GUARDED, monotone)
+    rules = Rules(GUARDED, monotone)
     everything = variable_depth.run(
         depth_length, greedy_length, MESHES["closed"](), rules, Reach(4, 3)
     )
@@ -413,13 +414,13 @@ def test_any_energy_will_do_and_the_monotone_rule_watches_the_true_one(monotone)
 def test_locked_edges_stay_and_the_rest_improves(energy):
     mesh = MESHES["locked"]()
     locked = {ends(mesh, h) for h in np.flatnonzero(mesh.locked)}
-    assert search(energy, mesh, greedy.Rules(FREE), Reach(4, 3)).flips > 5
+    assert search(energy, mesh, Rules(FREE), Reach(4, 3)).flips > 5
     assert locked == {ends(mesh, h) for h in np.flatnonzero(mesh.locked)}
 
 
 def test_every_flip_of_a_chain_passes_the_fold_guard():
     """The kept flips, made again one by one on the input."""
-    mesh, rules, reach = MESHES["closed"](), greedy.Rules(GUARDED), Reach(5, 3)
+    mesh, rules, reach = MESHES["closed"](), Rules(GUARDED), Reach(5, 3)
     greedy.run(entries.greedy_willmore, mesh, rules)
     task = new_task(mesh, rules, reach)
     flips = 0
@@ -437,13 +438,13 @@ def test_every_flip_of_a_chain_passes_the_fold_guard():
 def test_the_torus_ends_in_the_same_triangulation_whatever_the_start():
     """Two random flips an edge, and the energy comes down to the digit of the reference figure."""
     vertices, faces = meshes.torus(2000, 0.3, 8)
-    rules = greedy.Rules(GUARDED)
+    rules = Rules(GUARDED)
     results = []
     for seed in (None, 101, 102):
         mesh = build(vertices, faces)
         if seed is not None:
             _scramble(mesh, len(mesh.origin), np.random.default_rng(seed))
-        assert search("willmore", mesh, rules, Reach()).state == greedy.CONVERGED
+        assert search("willmore", mesh, rules, Reach()).state == CONVERGED
         validate_connectivity(mesh)
         results.append(reference.edge_set(faces_of(mesh)))
         energy = willmore.total(mesh) - 2.0 * math.pi * len(vertices)
@@ -469,7 +470,7 @@ def test_the_kernel_comes_back_often_and_two_runs_are_equal():
     for _ in range(2):
         calls = []
         mesh = build(*meshes.torus(800, None, 4))
-        greedy_rules = greedy.Rules(GUARDED)
+        greedy_rules = Rules(GUARDED)
         variable_depth.run(counting, entries.greedy_willmore, mesh, greedy_rules, Reach())
         results.append(mesh)
         assert len(calls) > 5

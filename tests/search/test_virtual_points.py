@@ -11,6 +11,7 @@ from meshlab_willmore.energy import virtual, virtual_at, virtual_closest, willmo
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.search import entries, greedy, scoring, variable_depth
 from meshlab_willmore.search.chains import Reach
+from meshlab_willmore.search.rules import CONVERGED, Rules
 from tests import meshes
 from tests.search.test_greedy import FREE, GUARDED, MANY, MESHES, flips_by_scanning
 from tests.search.test_variable_depth import Scan
@@ -34,7 +35,7 @@ each_place = pytest.mark.parametrize("place", PLACES)
 
 
 def rules(monotone=True, maxflips=MANY, fold=GUARDED, t=T):
-    return greedy.Rules(fold, monotone, maxflips, virtualpoint=t)
+    return Rules(fold, monotone, maxflips, virtualpoint=t)
 
 
 @pytest.mark.heavy
@@ -49,7 +50,7 @@ def test_the_queue_finds_what_a_scan_finds(place, monotone, name):
     validate_connectivity(searched)
     assert progress.flips == flips
     assert progress.gain == pytest.approx(gain, rel=1e-12)
-    assert progress.state == greedy.CONVERGED
+    assert progress.state == CONVERGED
     np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))
 
 
@@ -68,7 +69,7 @@ def test_chains_are_ranked_by_these_points(place, name):
     validate_connectivity(searched)
     np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))
     assert progress.flips == flips
-    assert progress.state == greedy.CONVERGED
+    assert progress.state == CONVERGED
 
 
 @pytest.mark.heavy
@@ -78,7 +79,7 @@ def test_the_search_ends(place, monotone):
     mesh = build(*meshes.torus(400, None, 1))
     before = willmore.total(mesh)
     progress = greedy.run(PLACES[place][0], mesh, rules(monotone))
-    assert progress.state == greedy.CONVERGED
+    assert progress.state == CONVERGED
     assert progress.flips > 50
     if monotone:
         assert willmore.total(mesh) < before

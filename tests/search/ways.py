@@ -7,7 +7,7 @@ from meshlab_willmore.energy import willmore
 from meshlab_willmore.energy.kinds import KINDS
 from meshlab_willmore.mesh.build import build, faces_of
 from meshlab_willmore.mesh.halfedge import NONE, can_flip, flip, following
-from meshlab_willmore.search.greedy import Rules
+from meshlab_willmore.search.rules import Rules
 from tests import meshes
 
 GUARDED, FREE = guards.fold_limits(90.0), guards.fold_limits(180.0)

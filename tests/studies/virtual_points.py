@@ -14,6 +14,7 @@ from meshlab_willmore.measure import measures
 from meshlab_willmore.mesh.build import build, faces_of
 from meshlab_willmore.mesh.halfedge import can_flip
 from meshlab_willmore.search import greedy
+from meshlab_willmore.search.rules import Rules
 from tests import meshes
 from tests.studies import models
 from tests.studies.both_points import greedy_both
@@ -53,7 +54,7 @@ def both_at_once():
     for name, vertices, faces in models.tori():
         for t in (0.4, 0.3, 0.2, 0.1):
             mesh = build(vertices, faces)
-            rules = greedy.Rules(fold_limits(90.0), virtualpoint=t)
+            rules = Rules(fold_limits(90.0), virtualpoint=t)
             flips = greedy.run(greedy_both, mesh, rules).flips
             yield row(name, f"{t} and {1.0 - t:.1f}", vertices, faces_of(mesh), flips)
 

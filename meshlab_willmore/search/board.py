@@ -1,0 +1,139 @@
+"""What the greedy search in rounds knows of a mesh, and the list of edges to be scored."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..guards.space import Space
+from ..mesh.halfedge import NONE, Mesh
+from ..mesh.jit import at, jit
+from .heap import NEVER
+from .pairs import Pairs, no_pairs
+from .rules import Rules
+from .waiting import Waiting, nothing_waits
+
+
+class Board(NamedTuple):
+    """What the search knows of a mesh of 3 m half-edges and n vertices; changed in place.
+
+    An edge with a twin goes by its lower half-edge.
+
+    Attributes
+    ----------
+    mesh : Mesh
+    rules : Rules
+    rank : (3 m,) float64
+        Rank of the edge of each half-edge, or `NEVER`; twins agree.
+    gain : (3 m,) float64
+        Cost reduction of each edge that has a rank.
+    is_tie : (3 m,) bool
+        Edges whose flip lowers no true energy: once flipped, they must not come back.
+    candidates : (3 m,) int32
+        The edges with a rank, and some that have none any more. Their number is not kept here, nor
+        that of the next two.
+    touched, watched : (e,) int32
+        The edges to be scored; those that may be peaks now.
+    is_listed, is_touched, is_watched : (3 m,) bool
+        The edges in these lists.
+    done : (m,) int32
+        The peaks of this round: from the front those that were flipped, from the back those that
+        must not be flipped.
+    taken : (n,) bool
+        Corners of what was flipped, for an energy that looks round whole corners.
+    gone, awaited : Pairs
+        The edges that must not come back; those that stood in the way of a flip to them.
+    new_edge : (n,) int64
+        The round in which a flip is last to make an edge of which the vertex is the lower end, and
+        in the low 32 bits the number of the peak.
+    space : Space
+    waiting : Waiting
+    """
+
+    mesh: Mesh
+    rules: Rules
+    rank: np.ndarray
+    gain: np.ndarray
+    is_tie: np.ndarray
+    candidates: np.ndarray
+    touched: np.ndarray
+    watched: np.ndarray
+    is_listed: np.ndarray
+    is_touched: np.ndarray
+    is_watched: np.ndarray
+    done: np.ndarray
+    taken: np.ndarray
+    gone: Pairs
+    awaited: Pairs
+    new_edge: np.ndarray
+    space: Space
+    waiting: Waiting
+
+
+def board_of(mesh, rules, space):
+    """Return the board at the start: every edge is to be scored."""
+    size, faces = len(mesh.origin), len(mesh.origin) // 3
+    edges = np.flatnonzero(np.arange(size, dtype=np.int32) < mesh.twin).astype(np.int32)
+    return Board(
+        mesh,
+        rules,
+        rank=np.full(size, NEVER),
+        gain=np.zeros(size),
+        is_tie=np.zeros(size, np.bool_),
+        candidates=np.empty(size, np.int32),
+        touched=edges,
+        watched=np.empty(len(edges), np.int32),
+        is_listed=np.zeros(size, np.bool_),
+        is_touched=np.zeros(size, np.bool_),
+        is_watched=np.zeros(size, np.bool_),
+        done=np.empty(faces, np.int32),
+        taken=np.zeros(len(mesh.vertices) if rules.is_wide else 0, np.bool_),
+        gone=no_pairs(),
+        awaited=no_pairs(),
+        new_edge=np.zeros(len(mesh.vertices), np.int64),
+        space=space,
+        waiting=nothing_waits(len(space.order)),
+    )
+
+
+@jit
+def forbid(board, h):
+    """Take the edge of `h`, if it is one with a twin, out of those that may be flipped."""
+    t = board.mesh.twin[at(h)]
+    board.rank[at(h)] = NEVER
+    if t != NONE:
+        board.rank[at(t)] = NEVER
+
+
+class Pad(NamedTuple):
+    """What `touch` and `watch` need: the board, and in `size` (1,) how long the list is."""
+
+    mesh: Mesh
+    board: Board
+    size: np.ndarray
+
+
+@jit
+def touch(pad, h, _):
+    """Put the edge of `h` among those to be scored."""
+    board, t = pad.board, pad.mesh.twin[at(h)]
+    if t == NONE:
+        board.rank[at(h)] = NEVER
+        return
+    low = min(h, t)
+    if not board.is_touched[at(low)]:
+        board.is_touched[at(low)] = True
+        board.touched[at(pad.size[0])] = low
+        pad.size[0] += 1
+
+
+@jit
+def watch(pad, h, _):
+    """Put the edge of `h`, if it has a rank, among those that may be peaks."""
+    board = pad.board
+    if board.rank[at(h)] == NEVER:
+        return
+    low = min(h, board.mesh.twin[at(h)])
+    if not board.is_watched[at(low)]:
+        board.is_watched[at(low)] = True
+        board.watched[at(pad.size[0])] = low
+        pad.size[0] += 1

@@ -1,0 +1,83 @@
+"""What searches have in common: the rules of a run, how far it is, when a flip is refused."""
+
+from typing import NamedTuple
+
+from .. import guards
+from ..guards import cuts
+from ..mesh.halfedge import NONE, apex
+from ..mesh.jit import jit
+from .pairs import contains
+from .waiting import wait
+
+WORKING, CONVERGED, STOPPED = range(3)
+NO_LIMIT = 2**62
+
+
+class Rules(NamedTuple):
+    """Which flips are made.
+
+    Attributes
+    ----------
+    fold : FoldLimits
+        The fold guard.
+    monotone : bool
+        Whether the Willmore energy must not rise.
+    maxflips : int
+        Number of flips after which to stop.
+    tolerance : float
+        A cost reduction must exceed this (in units of the energy); planar parallelograms tie at 0.
+    tie : float
+        A change of the Willmore energy (radians) up to this counts as none.
+    rank_step : float
+        Cost reductions are ranked in steps of this size (in units of the energy). Edges that are
+        equal by symmetry then go by number, and not by rounding, which a rotation would change.
+    is_potential, is_wide : bool
+        As in `meshlab_willmore.energy.kinds.Kind`.
+    virtualpoint : float
+        Place of the virtual points in (0, 1), for the energies that ask for it.
+    """
+
+    fold: guards.FoldLimits
+    monotone: bool = True
+    maxflips: int = NO_LIMIT
+    tolerance: float = 1e-7
+    tie: float = 1e-12
+    rank_step: float = 1e-9
+    is_potential: bool = False
+    is_wide: bool = False
+    virtualpoint: float = 0.5
+
+
+class Progress(NamedTuple):
+    """How far a search is: half-edges scored at first, flips made, their cost reductions, state."""
+
+    scored: int
+    flips: int
+    gain: float
+    state: int
+
+
+@jit
+def brings_back(mesh, gone, h):
+    """Tell whether the flip of `h` makes an edge of `gone`, which has to stay away."""
+    return contains(gone, apex(mesh, h), apex(mesh, mesh.twin[h]))
+
+
+@jit
+def is_blocked(task, h):
+    """Tell whether a new face would cut another one, and if so, wait until that changes.
+
+    Parameters
+    ----------
+    task : namedtuple
+        Of it the mesh, its index `space` and the edges that are `waiting`.
+    h : int
+        Half-edge that may be flipped.
+    """
+    if not task.space.active:
+        return False
+    face = cuts.blocker(task.mesh, task.space, h)
+    if face == NONE:
+        return False
+    wait(task.waiting, h, face)
+    return True

@@ -1,0 +1,352 @@
+"""The greedy search in rounds against one that scans all edges, and what makes rounds sound."""
+
+import math
+import threading
+
+import numba
+import numpy as np
+import pytest
+
+from meshlab_willmore import guards
+from meshlab_willmore.energy import willmore
+from meshlab_willmore.energy.kinds import KINDS
+from meshlab_willmore.guards.space import no_space, space_of
+from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
+from meshlab_willmore.mesh.halfedge import apex, flip, following, is_free, makes_new_edge, previous
+from meshlab_willmore.optimize import optimize_flips
+from meshlab_willmore.search import parallel_greedy, workers
+from meshlab_willmore.search.board import board_of
+from meshlab_willmore.search.heap import NEVER
+from meshlab_willmore.search.kernels import KERNELS
+from meshlab_willmore.search.parallel_greedy import IS_JOINED, IS_PEAK, STAYS, Look
+from meshlab_willmore.search.rules import CONVERGED, STOPPED
+from tests import meshes
+from tests.search.ways import FREE, GUARDED, MESHES, rules_for, shuffled
+
+HEAVY = pytest.mark.heavy
+BOTH_WILLMORE = ["virtual willmore", "willmore"]
+ENERGIES = [pytest.param(e, marks=() if e in BOTH_WILLMORE else HEAVY) for e in KERNELS]
+ALL_MESHES = {**MESHES, "shuffled": lambda: shuffled(20, 1)}
+
+
+def pair(a, b):
+    return frozenset((int(a), int(b)))
+
+
+def ends(mesh, h):
+    return pair(mesh.origin[h], mesh.origin[mesh.twin[h]])
+
+
+def flipped_ends(mesh, h):
+    return pair(apex(mesh, h), apex(mesh, mesh.twin[h]))
+
+
+def edges_of(mesh):
+    return [h for h in range(len(mesh.origin)) if h < mesh.twin[h]]
+
+
+def six_faces(mesh, h):
+    """The edges of the two faces at `h` and of those outside."""
+    sides = [x for a in (h, mesh.twin[h]) for x in (following(a), previous(a))]
+    faces = {h // 3, mesh.twin[h] // 3, *(mesh.twin[s] // 3 for s in sides if mesh.twin[s] >= 0)}
+    half_edges = [3 * f + c for f in faces for c in range(3)]
+    return {ends(mesh, x) for x in half_edges if mesh.twin[x] >= 0}
+
+
+def rank_of(mesh, h, rules, energy):
+    """The rank of an edge and whether its flip is a tie, or None."""
+    if not is_free(mesh, h):
+        return None
+    gain, drop = KINDS[energy].cost_reduction(mesh, h), willmore.cost_reduction(mesh, h)
+    if not gain > rules.tolerance or (rules.monotone and drop < -rules.tie):
+        return None
+    is_tie = not rules.is_potential and (not rules.monotone or drop <= 2 * rules.tie)
+    return np.rint(gain / rules.rank_step), is_tie
+
+
+def rounds_by_scanning(mesh, rules, energy):
+    """Make the rounds on `mesh`, all edges scored each time; return the flips and their gain."""
+    gone, asleep, gains = set(), {}, []
+    while True:
+        ranks = {}
+        for h in edges_of(mesh):
+            found = rank_of(mesh, h, rules, energy)
+            if found and ends(mesh, h) not in asleep:
+                number = int(parallel_greedy.scrambled(h))
+                ranks[ends(mesh, h)] = (-found[0], number, h, found[1])
+        if not ranks:
+            return len(gains), math.fsum(gains)
+        peaks = []
+        for entry in ranks.values():
+            around = [ranks[other] for other in six_faces(mesh, entry[2]) if other in ranks]
+            if min(around) == entry:
+                peaks.append(entry)
+        flipped = []
+        for _, _, h, is_tie in sorted(peaks):
+            if guards.folds(mesh, h, rules.fold) or (is_tie and flipped_ends(mesh, h) in gone):
+                asleep[ends(mesh, h)] = None
+            elif not makes_new_edge(mesh, h):
+                asleep[ends(mesh, h)] = flipped_ends(mesh, h)
+            else:
+                if is_tie:
+                    gone.add(ends(mesh, h))
+                gains.append(KINDS[energy].cost_reduction(mesh, h))
+                flip(mesh, h)
+                flipped.append(h)
+        validate_connectivity(mesh)
+        half_edges = range(len(mesh.origin))
+        there = {pair(mesh.origin[h], mesh.origin[following(h)]) for h in half_edges}
+        awake = {edge for h in flipped for edge in six_faces(mesh, h)}
+        awake |= {edge for edge, wanted in asleep.items() if wanted and wanted not in there}
+        asleep = {edge: wanted for edge, wanted in asleep.items() if edge not in awake}
+
+
+@HEAVY
+@pytest.mark.parametrize("name", ALL_MESHES)
+@pytest.mark.parametrize("monotone", [True, False])
+@pytest.mark.parametrize("fold", [GUARDED, FREE])
+@pytest.mark.parametrize("energy", [e for e in KERNELS if not KINDS[e].is_wide])
+def test_the_rounds_are_those_of_a_scan(energy, fold, monotone, name):
+    rules = rules_for(energy, fold)
+    if not rules.is_potential:
+        rules = rules._replace(monotone=monotone)
+    scanned, searched = ALL_MESHES[name](), ALL_MESHES[name]()
+    flips, gain = rounds_by_scanning(scanned, rules, energy)
+    progress = parallel_greedy.run(KERNELS[energy].score, searched, rules)
+    validate_connectivity(searched)
+    assert progress.flips == flips
+    assert progress.gain == pytest.approx(gain, rel=1e-12)
+    assert progress.state == CONVERGED
+    np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))
+
+
+def scored(mesh, rules, energy, space=None):
+    """The board after the first score, its candidates, and their number."""
+    board = board_of(mesh, rules, no_space() if space is None else space)
+    KERNELS[energy].score(board, 0, len(board.touched))
+    return board, parallel_greedy.add_candidates(board, 0, len(board.touched), 0)
+
+
+@pytest.mark.parametrize("energy", BOTH_WILLMORE)
+@pytest.mark.parametrize("name", ["closed", "boundary", "fin", "locked", "shuffled"])
+def test_many_edges_at_once_get_the_bits_that_each_gets_alone(energy, name):
+    mesh = ALL_MESHES[name]()
+    board, _ = scored(mesh, rules_for(energy, FREE), energy)
+    ranked = [h for h in edges_of(mesh) if board.rank[h] > NEVER]
+    assert ranked
+    for h in edges_of(mesh):
+        found = rank_of(mesh, h, board.rules, energy)
+        assert (found is not None) == (h in ranked)
+        assert board.rank[h] == board.rank[mesh.twin[h]] == (found[0] if found else NEVER)
+        if found:
+            assert board.gain[h] == KINDS[energy].cost_reduction(mesh, h)
+            assert board.is_tie[h] == found[1]
+
+
+def peaks_of(board, edges, number=1):
+    """The verdict on each of the edges, and the peaks, in order, with the first contested place."""
+    edges = np.array(edges, np.int32)
+    look = Look(board, edges, np.empty(len(edges), np.int8))
+    parallel_greedy.find_peaks(look, 0, len(edges))
+    return look.verdict, *parallel_greedy._peaks(look, number, 0)
+
+
+def flip_all(board, edges):
+    """Flip the peaks among the edges in one round; return those, and what was done."""
+    _, peaks, first = peaks_of(board, edges)
+    _, done = parallel_greedy._flip_all(board, peaks, first, 10**6)
+    return list(board.done[: done.flipped]), done
+
+
+@pytest.mark.parametrize("energy", ENERGIES)
+@pytest.mark.parametrize("seed", range(3))
+def test_the_order_of_the_flips_of_a_round_does_not_matter(energy, seed):
+    mesh = build(*meshes.bumpy_sphere(120, seed, bump=0.7))
+    board, count = scored(mesh, rules_for(energy, FREE), energy)
+    candidates = board.candidates[:count].copy()
+    verdict, _, _ = peaks_of(board, candidates, 7)
+    chosen, done = flip_all(board, candidates)
+    assert len(chosen) > 1
+    assert set(chosen) <= set(candidates[verdict == IS_PEAK])
+    assert KINDS[energy].is_wide or len(chosen) + done.refused == (verdict != STAYS).sum()
+    other = build(*meshes.bumpy_sphere(120, seed, bump=0.7))
+    gains = []
+    for h in np.random.default_rng(seed).permutation(chosen):
+        assert makes_new_edge(other, h)
+        gains.append(KINDS[energy].cost_reduction(other, h))
+        assert gains[-1] == pytest.approx(board.gain[h], rel=1e-12)
+        flip(other, h)
+    np.testing.assert_array_equal(other.origin, mesh.origin)
+    np.testing.assert_array_equal(other.twin, mesh.twin)
+    assert done.gain == pytest.approx(math.fsum(gains), rel=1e-12)
+
+
+def bipyramid(count):
+    """A ring of `count` points and two poles: each edge of the ring would become pole to pole."""
+    turns = 2 * np.pi * np.arange(count) / count
+    ring = np.column_stack([np.cos(turns), np.sin(turns), np.zeros(count)])
+    after = (np.arange(count) + 1) % count
+    top = np.column_stack([np.arange(count), after, np.full(count, count)])
+    bottom = np.column_stack([after, np.arange(count), np.full(count, count + 1)])
+    vertices = np.vstack([ring, [(0, 0, 0.1), (0, 0, -0.1)]])
+    return vertices, np.vstack([top, bottom]).astype(np.int32)
+
+
+def with_ranks(mesh, ranks):
+    """A board on which just these edges have a rank."""
+    board = board_of(mesh, rules_for("willmore", FREE), no_space())
+    for h, rank in ranks.items():
+        board.rank[h] = board.rank[mesh.twin[h]] = rank
+    return board
+
+
+@pytest.mark.parametrize("larger", [0, 1])
+def test_of_two_flips_to_the_same_edge_the_smaller_waits_until_it_is_gone(larger):
+    mesh = build(*bipyramid(8))
+    ring = [h for h in edges_of(mesh) if flipped_ends(mesh, h) == {8, 9}]
+    assert len(ring) == 8
+    two = ring[0], ring[4]
+    one, other = two[larger], two[1 - larger]
+    board = with_ranks(mesh, {one: 2.0, other: 1.0})
+    verdict, _, _ = peaks_of(board, two, 7)
+    assert list(verdict) == [IS_PEAK, IS_PEAK]
+    flipped, done = flip_all(board, two)
+    assert flipped == [one]
+    assert list(board.done[-done.refused :]) == [other]
+    assert board.rank[other] == NEVER
+    validate_connectivity(mesh)
+    assert ends(mesh, one) == {8, 9}
+    # In a later round the edge is there already.
+    board.rank[other] = board.rank[mesh.twin[other]] = 1.0
+    verdict, _, _ = peaks_of(board, [other], 2)
+    assert list(verdict) == [IS_JOINED]
+    # Once it is flipped away, the edge that waits is looked at again.
+    for _ in range(3):
+        flip(mesh, one)
+    board.done[0] = one
+    size = parallel_greedy.touch(board, 0, 1, 0)
+    assert other in board.touched[:size]
+
+
+def test_edges_of_equal_gain_do_not_wait_for_the_first_of_all():
+    mesh = build(*meshes.grid(12, 12))
+    edges = [h for h in edges_of(mesh) if is_free(mesh, h)]
+    board = with_ranks(mesh, dict.fromkeys(edges, 1.0))
+    verdict, _, _ = peaks_of(board, edges)
+    peaks = {h for h, what in zip(edges, verdict, strict=True) if what != STAYS}
+    assert len(peaks) > len(edges) / 26
+    for h in peaks:
+        around = {x for x in edges if ends(mesh, x) in six_faces(mesh, h)}
+        assert peaks & around == {h}
+
+
+@pytest.mark.parametrize("energy", ENERGIES)
+@pytest.mark.parametrize("name", ["closed", "locked", "shuffled"])
+def test_the_number_of_threads_changes_nothing(energy, name, monkeypatch):
+    results, gains = [], []
+    for threads, piece in ((2, 2048), (1, 7), (4, 7), (3, 1), (6, 16)):
+        monkeypatch.setattr(workers, "PIECE", piece)
+        monkeypatch.setattr(parallel_greedy, "SLICE", 3 * piece)
+        # To look at all candidates, or at those around changes only, must be the same.
+        monkeypatch.setattr(parallel_greedy, "WATCHED_PER_CHANGE", 10 * (threads % 2))
+        mesh = ALL_MESHES[name]()
+        progress = parallel_greedy.run(
+            KERNELS[energy].score, mesh, rules_for(energy), threads=threads
+        )
+        results.append((progress.flips, mesh.origin.tobytes(), mesh.corner.tobytes()))
+        gains.append(progress.gain)
+    assert all(result == results[0] for result in results)
+    assert results[0][0] > 0 or energy == "gaussian curvature"
+    # The order of a sum may depend on the way, but not on the threads.
+    assert gains[0] == gains[2] == gains[4]
+    np.testing.assert_allclose(gains, gains[0], rtol=1e-13)
+
+
+@HEAVY
+@pytest.mark.parametrize("energy", [e for e in KERNELS if KINDS[e].is_potential])
+@pytest.mark.parametrize("name", ALL_MESHES)
+def test_nothing_is_left_to_gain_and_the_gain_is_the_drop(energy, name):
+    mesh, rules = ALL_MESHES[name](), rules_for(energy)
+    before = KINDS[energy].total(mesh)
+    progress = parallel_greedy.run(KERNELS[energy].score, mesh, rules)
+    validate_connectivity(mesh)
+    assert progress.gain == pytest.approx(before - KINDS[energy].total(mesh), rel=1e-9, abs=1e-9)
+    for h in edges_of(mesh):
+        if rank_of(mesh, h, rules, energy) and makes_new_edge(mesh, h):
+            assert guards.folds(mesh, h, rules.fold)
+
+
+@HEAVY
+@pytest.mark.parametrize("energy", KERNELS)
+@pytest.mark.parametrize("model", [(2000, 0.3, 8), (2000, None, 1)])
+def test_rounds_end_as_low_as_the_queue(energy, model):
+    vertices, faces = meshes.torus(*model)
+    total = KINDS[energy].total
+    ends_at = [
+        total(build(vertices, optimize_flips(vertices, faces, energy=energy, search=search).faces))
+        for search in ("parallel greedy", "greedy")
+    ]
+    # In the absolute Gaussian curvature local minima are many.
+    slack = 0.03 if KINDS[energy].is_wide else 0.01
+    assert ends_at[0] == pytest.approx(ends_at[1], rel=slack)
+
+
+@pytest.mark.parametrize("energy", BOTH_WILLMORE)
+@pytest.mark.parametrize("limit", [0, 1, 5])
+def test_maxflips_stops_on_the_way(energy, limit):
+    mesh = ALL_MESHES["closed"]()
+    rules = rules_for(energy)._replace(maxflips=limit)
+    progress = parallel_greedy.run(KERNELS[energy].score, mesh, rules)
+    assert (progress.flips, progress.state) == (limit, STOPPED)
+    validate_connectivity(mesh)
+
+
+@HEAVY
+@pytest.mark.parametrize("energy", KERNELS)
+def test_with_the_guard_edges_that_would_cut_are_tried_again(energy):
+    mesh = build(*meshes.bumpy_sphere(150, bump=0.95))
+    space = space_of(mesh)
+    rules = rules_for(energy, FREE)
+    progress = parallel_greedy.run(KERNELS[energy].score, mesh, rules, space)
+    assert progress.state == CONVERGED
+    assert progress.flips > 0
+    for h in edges_of(mesh):
+        if rules.is_potential and rank_of(mesh, h, rules, energy) and makes_new_edge(mesh, h):
+            assert guards.cuts.would_cut(mesh, space, h)
+
+
+# --- threads -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("threads", [1, 2, 4])
+@pytest.mark.parametrize("count", [0, 1, workers.PIECE, workers.PIECE + 1, 10 * workers.PIECE + 3])
+def test_all_work_is_done_once(threads, count):
+    done = np.zeros(count, int)
+
+    def kernel(task, start, stop):
+        done[start:stop] += task
+
+    with workers.crew(threads) as share:
+        share(kernel, 1, count)
+        share(kernel, 1, count)
+    assert (done == 2).all()
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+def test_an_error_in_a_piece_reaches_the_caller_and_no_thread_stays(threads):
+    def kernel(task, start, _):
+        if start >= 2 * workers.PIECE:
+            raise KeyboardInterrupt
+
+    before = threading.active_count()
+    with pytest.raises(KeyboardInterrupt), workers.crew(threads) as share:
+        share(kernel, None, 40 * workers.PIECE)
+    assert threading.active_count() == before
+
+
+def test_the_number_of_threads_is_numbas(monkeypatch):
+    monkeypatch.setattr(numba.config, "DISABLE_JIT", 0)
+    monkeypatch.setattr(numba.config, "NUMBA_NUM_THREADS", 7)
+    assert workers.thread_count() == 7
+    monkeypatch.setattr(numba.config, "DISABLE_JIT", 1)
+    assert workers.thread_count() == 1

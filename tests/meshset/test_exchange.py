@@ -8,9 +8,9 @@ import pymeshlab
 import pytest
 
 from meshlab_willmore import optimize_flips
-from meshlab_willmore.meshset import exchange, sides
+from meshlab_willmore.meshset import exchange, ply, sides
 from meshlab_willmore.meshset.sides import fixed_edges
-from meshlab_willmore.meshset.snapshot import take
+from meshlab_willmore.meshset.snapshot import selected, take
 from tests import meshes
 from tests.meshset.conftest import FLIP, SAMPLES, random_transform, set_of
 
@@ -140,19 +140,143 @@ def test_a_mesh_without_extras_gets_none():
 def test_normals_are_those_that_a_native_flip_leaves(bumpy):
     bumpy.apply_filter(FLIP)
     mesh = bumpy.current_mesh()
-    np.testing.assert_allclose(mesh.face_normal_matrix(), _unit_normals(mesh), atol=1e-12)
-    normals = mesh.vertex_normal_matrix()
-    np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1.0)
-    a_fresh_one = set_of(mesh.vertex_matrix(), mesh.face_matrix())
-    a_fresh_one.apply_normal_normalization_per_vertex()
-    expected = a_fresh_one.current_mesh().vertex_normal_matrix()
-    np.testing.assert_allclose(normals, expected, atol=1e-12)
+    native = set_of(mesh.vertex_matrix(), mesh.face_matrix())
+    native.meshing_edge_flip_by_planar_optimization(pthreshold=0, iterations=0)
+    twin = native.current_mesh()
+    np.testing.assert_array_equal(twin.face_matrix(), mesh.face_matrix(), "nothing to flip")
+    np.testing.assert_allclose(mesh.vertex_normal_matrix(), twin.vertex_normal_matrix(), atol=1e-12)
+    # Those of MeshLab's planar flip are as long as twice the areas, those of a new mesh are units.
+    normals = twin.face_normal_matrix()
+    units = normals / np.linalg.norm(normals, axis=1)[:, None]
+    np.testing.assert_allclose(mesh.face_normal_matrix(), units, atol=1e-12)
 
 
-def _unit_normals(mesh):
-    a, b, c = mesh.vertex_matrix()[mesh.face_matrix()].transpose(1, 0, 2)
-    normals = np.cross(b - a, c - a)
-    return normals / np.linalg.norm(normals, axis=1)[:, None]
+def test_points_without_faces_keep_their_normals():
+    vertices, faces = meshes.bumpy_sphere(60)
+    vertices = np.vstack((vertices, [[9.0, 9, 9], [8, 8, 8]]))
+    normals = np.tile([0.0, 0.6, 0.8], (62, 1))
+    ms = set_of(vertices, faces, v_normals_matrix=normals)
+    np.testing.assert_array_equal(ms.current_mesh().vertex_normal_matrix()[60:], normals[60:])
+    assert ms.apply_filter(FLIP)["flips"] > 0
+    np.testing.assert_allclose(ms.current_mesh().vertex_normal_matrix()[60:], normals[60:])
+
+
+# --- one thing at a time -----------------------------------------------------------------------
+
+
+def plain_set(tmp_path, radius=False, edges=()):
+    """A mesh from a file that has positions and faces, and what else is asked for."""
+    vertices, faces = meshes.bumpy_sphere(300)
+    more = [("radius", "<f4")] if radius else []
+    points = np.zeros(len(vertices), [(axis, "<f8") for axis in "xyz"] + more)
+    for n, axis in enumerate("xyz"):
+        points[axis] = vertices[:, n]
+    if radius:
+        points["radius"] = np.arange(len(vertices)) / 7
+    triangles = np.zeros(
+        len(faces), [("vertex_indices_count", "u1"), ("vertex_indices", "<i4", (3,))]
+    )
+    triangles["vertex_indices_count"] = 3
+    triangles["vertex_indices"] = faces
+    edges = np.array(edges, np.int32).reshape(-1, 2)
+    ply.write(tmp_path / "plain.ply", ply.PlyMesh(points, triangles, edges, ()))
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(tmp_path / "plain.ply"))
+    return ms
+
+
+def with_filter(name, **options):
+    def make(tmp_path):
+        ms = plain_set(tmp_path)
+        ms.apply_filter(name, **options)
+        return ms
+
+    return make
+
+
+def with_attribute(tmp_path):
+    ms = plain_set(tmp_path)
+    ms.current_mesh().add_face_custom_scalar_attribute(np.arange(596) / 7, "Mine")
+    return ms
+
+
+# Such that the two faces of an edge agree: else all edges would be seams.
+WEDGES = {"u0": "x0", "v0": "y0", "u1": "x1", "v1": "y1", "u2": "x2", "v2": "y2"}
+ALONE = {
+    "nothing": plain_set,
+    "vertex selection": with_filter("compute_selection_by_condition_per_vertex", condselect="vi>9"),
+    "face selection": with_filter("compute_selection_by_condition_per_face", condselect="fi>99"),
+    "edge selection": with_filter("compute_selection_crease_per_edge"),
+    "vertex colours": with_filter("compute_color_by_function_per_vertex", x="vi/2"),
+    "face colours": with_filter("compute_color_by_function_per_face", r="fi/3"),
+    "vertex scalars": with_filter("compute_scalar_by_function_per_vertex", q="x*y"),
+    "face scalars": with_filter("compute_scalar_by_function_per_face", q="fi/7"),
+    "vertex texture": with_filter("compute_texcoord_by_function_per_vertex", u="x", v="y"),
+    "wedge texture": with_filter("compute_texcoord_by_function_per_wedge", **WEDGES),
+    "quads": lambda _: quad_set(),
+    "radii": lambda tmp_path: plain_set(tmp_path, radius=True),
+    "edges": lambda tmp_path: plain_set(tmp_path, edges=[(0, 5), (9, 2)]),
+    "attribute": with_attribute,
+}
+
+
+@pytest.mark.parametrize("make", ALONE.values(), ids=ALONE)
+def test_each_thing_survives_alone_and_nothing_comes_with_it(make, tmp_path):
+    ms = make(tmp_path)
+    before, shown = take(ms), state(ms)
+    assert ms.apply_filter(FLIP)["flips"] > 0
+    assert_same_state(state(ms), shown)
+    after = take(ms)
+    assert after.ply.vertices.dtype == before.ply.vertices.dtype
+    assert after.ply.vertices.tobytes() == before.ply.vertices.tobytes()
+    assert after.ply.faces.dtype == before.ply.faces.dtype
+    for field in set(before.ply.faces.dtype.names) - {"vertex_indices", "flags", "texcoord"}:
+        np.testing.assert_array_equal(after.ply.faces[field], before.ply.faces[field])
+    for left, right in zip(after.attributes, before.attributes, strict=True):
+        assert left[:2] == right[:2]
+        np.testing.assert_array_equal(left.values, right.values)
+
+
+def test_a_plain_mesh_travels_with_positions_faces_and_normals_only(tmp_path, monkeypatch):
+    written, write = [], ply.write
+
+    def noted(path, mesh):
+        written.append(mesh)
+        write(path, mesh)
+
+    ms = plain_set(tmp_path)
+    monkeypatch.setattr(exchange.ply, "write", noted)
+    assert ms.apply_filter(FLIP)["flips"] > 0
+    part, whole = written
+    for mesh in (part, whole):
+        assert mesh.vertices.dtype.names == ("x", "y", "z", "nx", "ny", "nz")
+        assert mesh.faces.dtype.names == ("vertex_indices_count", "vertex_indices")
+    assert len(part.faces) == 100
+    assert len(whole.faces) == 596
+
+
+def test_the_part_that_is_tried_has_all_that_the_mesh_has():
+    """Flags, edges and attributes too, which need not lie at the beginning."""
+    whole = take(rich_set())
+    for records, selected_one in ((whole.ply.faces, 555), (whole.ply.vertices, 288)):
+        records["flags"] = 0
+        records["flags"][selected_one] = 0x20
+    part = exchange._part(whole)
+    assert len(part.ply.faces) == 101
+    assert selected(part.ply.faces).nonzero()[0].tolist() == [100]
+    assert selected(part.ply.vertices).sum() == 1
+    assert part.ply.faces.dtype == whole.ply.faces.dtype
+    assert len(part.attributes) == len(whole.attributes) == 4 * len(ATTRIBUTES)
+    corners = part.vertices[part.faces]
+    kept = [*range(100), 555]
+    np.testing.assert_array_equal(corners, whole.vertices[whole.faces[kept]])
+    np.testing.assert_array_equal(part.vertices[part.ply.edges], whole.vertices[whole.ply.edges])
+    place = {tuple(point): v for v, point in enumerate(whole.vertices.tolist())}
+    rows = [place[tuple(point)] for point in part.vertices.tolist()]
+    np.testing.assert_array_equal(part.normals, whole.normals[rows])
+    for less, more in zip(part.attributes, whole.attributes, strict=True):
+        wanted = rows if less.kind.startswith("v") else kept
+        np.testing.assert_array_equal(less.values, more.values[wanted])
 
 
 def test_faces_keep_their_slots(bumpy):
@@ -173,6 +297,39 @@ def test_only_selected_faces_change(bumpy):
     np.testing.assert_array_equal(before[:300], after[:300])
     assert bumpy.apply_filter(FLIP, selection=False)["flips"] > 0
     assert (before[:300] != bumpy.current_mesh().face_matrix()[:300]).any()
+
+
+def test_native_filters_still_see_that_faces_are_selected(bumpy):
+    name = "meshing_edge_flip_by_planar_optimization"
+    for _ in range(2):
+        assert not bumpy.filter_parameter_values(name)["selection"]
+        bumpy.apply_filter(FLIP, maxflips=1)
+    bumpy.compute_selection_by_condition_per_face(condselect="fi > 299")
+    for _ in range(2):
+        assert bumpy.filter_parameter_values(name)["selection"]
+        bumpy.apply_filter(FLIP, maxflips=1)
+
+
+def selected_edges(ms):
+    """The pairs of points of the selected edges; they become a layer of their own for it."""
+    ms.generate_polyline_from_selected_edges()
+    mesh = ms.current_mesh()
+    points = mesh.vertex_matrix()[mesh.edge_matrix()]
+    return {frozenset(map(tuple, edge)) for edge in points.tolist()}
+
+
+def test_selected_edges_stay_selected_unless_they_are_flipped(bumpy):
+    bumpy.compute_selection_crease_per_edge(angledegneg=-5, angledegpos=20)
+    vertices, faces = bumpy.current_mesh().vertex_matrix(), bumpy.current_mesh().face_matrix()
+    twin = set_of(vertices, faces)
+    twin.compute_selection_crease_per_edge(angledegneg=-5, angledegpos=20)
+    before = selected_edges(twin)
+    bumpy.apply_filter(FLIP)
+    faces = bumpy.current_mesh().face_matrix()
+    sides = vertices[np.stack((faces, np.roll(faces, -1, axis=1)), axis=-1)].reshape(-1, 2, 3)
+    there = {frozenset(map(tuple, side)) for side in sides.tolist()}
+    assert 0 < len(before & there) < len(before) < 894
+    assert selected_edges(bumpy) == before & there
 
 
 def test_selection_without_selected_faces_flips_nothing(bumpy):
@@ -220,7 +377,8 @@ def test_polygons_of_a_real_mesh_survive():
     assert polygons_of(ms) == before
 
 
-def test_side_bits_move_with_their_sides():
+@pytest.mark.parametrize("first_bit", sides._SIDE_BITS)
+def test_side_bits_move_with_their_sides(first_bit):
     """A flip beside a marked side turns its face in the slot: the mark has to stay on the side."""
     ms = set_of(*meshes.patch(60))
     snapshot = take(ms)
@@ -228,20 +386,20 @@ def test_side_bits_move_with_their_sides():
     marked = np.flatnonzero(records["vertex_indices"] % 2 == 0)
     records["flags"] = 0
     for side in marked:
-        records["flags"][side // 3] |= 1 << (sides._BORDER_BIT + side % 3)
+        records["flags"][side // 3] |= 1 << (first_bit + side % 3)
     new = optimize_flips(snapshot.vertices, snapshot.faces)
     assert new.flips > 10
     flags = sides.carry_side_bits(snapshot.ply, new.faces)
-    before = sides_of(snapshot.faces, records["flags"])
-    after = sides_of(new.faces, flags)
+    before = sides_of(snapshot.faces, records["flags"], first_bit)
+    after = sides_of(new.faces, flags, first_bit)
     kept = before.keys() & after.keys()
     assert len(kept) < len(before), "some sides are flipped away"
     assert {side: after[side] for side in kept} == {side: before[side] for side in kept}
     assert not any(after[side] for side in after.keys() - kept), "new sides are not marked"
 
 
-def sides_of(faces, flags):
-    bits = sides._side_bits(flags, sides._BORDER_BIT)
+def sides_of(faces, flags, first_bit):
+    bits = sides._side_bits(flags, first_bit)
     heads = np.roll(faces, -1, axis=1)
     both = zip(faces.ravel().tolist(), heads.ravel().tolist(), strict=True)
     return dict(zip(both, bits.ravel().tolist(), strict=True))
@@ -430,6 +588,22 @@ def test_what_would_be_lost_is_an_error_before_anything_changes(bumpy):
     assert_same_state(after, before)
 
 
+def test_radii_that_a_float_does_not_hold_are_an_error(tmp_path, monkeypatch):
+    """MeshLab's files bring in none, but its filters could."""
+    ms = plain_set(tmp_path, radius=True)
+    read = ply.read
+
+    def scaled(path):
+        mesh = read(path)
+        mesh.vertices["radius"] /= 3
+        return mesh
+
+    monkeypatch.setattr(exchange.ply, "read", scaled)
+    with pytest.raises(pymeshlab.PyMeshLabException, match="last digits of the radii"):
+        ms.apply_filter(FLIP)
+    assert ms.apply_filter(FLIP, allowloss=True)["flips"] > 0
+
+
 def test_attributes_that_cannot_be_named_are_an_error(bumpy):
     bumpy.current_mesh().add_vertex_custom_scalar_attribute(np.zeros(300), "two\nlines")
     with pytest.raises(pymeshlab.PyMeshLabException, match="odd names"):
@@ -459,6 +633,31 @@ def test_what_pymeshlab_drops_is_noticed(bumpy, monkeypatch):
     with pytest.raises(pymeshlab.PyMeshLabException, match="vertex selection, face selection"):
         bumpy.apply_filter(FLIP)
     np.testing.assert_array_equal(bumpy.current_mesh().face_matrix(), faces)
+
+
+def test_what_only_the_whole_mesh_would_lose_is_put_back(bumpy, monkeypatch):
+    """As above, where the part that is tried first comes through."""
+    bumpy.compute_selection_by_condition_per_vertex(condselect="vi < 99")
+    carry, calls = exchange._load, []
+
+    def forgetful(ms, path, snapshot):
+        carry(ms, path, snapshot)
+        calls.append(ms is bumpy)
+        if len(calls) == 2:
+            ms.set_selection_all()
+
+    before, faces = state(bumpy), bumpy.current_mesh().face_matrix()
+    normals = bumpy.current_mesh().vertex_normal_matrix()
+    monkeypatch.setattr(exchange, "_load", forgetful)
+    with pytest.raises(pymeshlab.PyMeshLabException, match="vertex selection, face selection"):
+        bumpy.apply_filter(FLIP)
+    assert calls == [False, True, True]
+    assert bumpy.current_mesh_id() == 0
+    assert_same_state(state(bumpy), before)
+    np.testing.assert_array_equal(bumpy.current_mesh().face_matrix(), faces)
+    found = bumpy.current_mesh().vertex_normal_matrix()
+    scale = np.linalg.norm(normals, axis=1)[:, None]
+    np.testing.assert_allclose(found, normals / scale, atol=1e-12)
 
 
 def test_a_full_disk_changes_nothing(bumpy, monkeypatch, tmp_path):

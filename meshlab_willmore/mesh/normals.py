@@ -1,5 +1,7 @@
 """Normals of vertices as MeshLab's flip filters leave them."""
 
+import math
+
 import numpy as np
 
 from .jit import jit
@@ -27,24 +29,38 @@ def vertex_normals(vertices, faces, others):
     The sums and their order are those of ``UpdateNormal::PerVertexNormalizedPerFace`` in VCG
     (``vcg/complex/algorithms/update/normal.h``), which MeshLab's planar flip ends with.
     """
-    sums = np.zeros_like(vertices)
-    used = np.zeros(len(vertices), np.bool_)
-    _add_normals(vertices, faces, sums, used)
-    sums[~used] = others[~used]
-    # Products of coordinates above 1e77 overflow, as they do in MeshLab.
-    with np.errstate(over="ignore", invalid="ignore"):
-        lengths = np.sqrt(np.einsum("ij,ij->i", sums, sums))
-        return sums / np.where(lengths > 0.0, lengths, 1.0)[:, None]
+    normals = np.array(others, order="C")
+    _clear(faces, normals)
+    _add_normals(vertices, faces, normals)
+    _normalize(normals)
+    return normals
 
 
 @jit
-def _add_normals(vertices, faces, sums, used):
-    """Add the normal of each face to `sums` at its corners, and mark these in `used`."""
+def _clear(faces, normals):
+    """Set the normals of vertices with faces to zero."""
+    for f in range(len(faces)):
+        for c in range(3):
+            normals[faces[f, c], :] = 0.0
+
+
+@jit
+def _add_normals(vertices, faces, normals):
+    """Add the normal of each face to those of its corners."""
     for f in range(len(faces)):
         a, b, c = faces[f, 0], faces[f, 1], faces[f, 2]
         n = normal(point(vertices, a), point(vertices, b), point(vertices, c))
         for v in (a, b, c):
-            sums[v, 0] += n.x
-            sums[v, 1] += n.y
-            sums[v, 2] += n.z
-            used[v] = True
+            normals[v, 0] += n.x
+            normals[v, 1] += n.y
+            normals[v, 2] += n.z
+
+
+@jit
+def _normalize(normals):
+    """Scale all normals to length 1."""
+    for v in range(len(normals)):
+        x, y, z = normals[v, 0], normals[v, 1], normals[v, 2]
+        length = math.sqrt(x * x + y * y + z * z)
+        if length > 0.0:
+            normals[v, 0], normals[v, 1], normals[v, 2] = x / length, y / length, z / length

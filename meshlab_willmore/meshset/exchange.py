@@ -255,7 +255,9 @@ def _lost(ms: pymeshlab.MeshSet, snapshot: Snapshot) -> list[str]:
 
 
 def _same(left: np.ndarray, right: np.ndarray) -> bool:
-    # Only texture coordinates can be NaN, and to look for it takes longer than to compare.
+    # PyMeshLab's matrices are stored column by column. Only texture coordinates can be NaN, and
+    # to look for that takes longer than to compare.
+    right = np.asfortranarray(right)
     is_float = np.issubdtype(right.dtype, np.floating)
     return np.array_equal(left, right) or (is_float and np.array_equal(left, right, equal_nan=True))
 

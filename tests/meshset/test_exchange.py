@@ -10,91 +10,17 @@ import pytest
 from meshlab_willmore import optimize_flips
 from meshlab_willmore.meshset import exchange, ply, sides
 from meshlab_willmore.meshset.sides import fixed_edges
-from meshlab_willmore.meshset.snapshot import selected, take
+from meshlab_willmore.meshset.snapshot import take
 from tests import meshes
-from tests.meshset.conftest import FLIP, SAMPLES, random_transform, set_of
-
-ATTRIBUTES = ["My Attr", "x", "w"]
-
-
-def rich_set():
-    """A mesh with all that `pymeshlab.Mesh` and `MeshSet` can put on one."""
-    vertices, faces = meshes.bumpy_sphere(300)
-    n, m = len(vertices), len(faces)
-    rng = np.random.default_rng(7)
-    ms = set_of(
-        vertices,
-        faces,
-        edge_matrix=np.array([[0, 5], [9, 2]]),
-        v_scalar_array=rng.normal(size=n),
-        f_scalar_array=rng.normal(size=m),
-        v_color_matrix=rng.random((n, 4)),
-        f_color_matrix=rng.random((m, 4)),
-        v_tex_coords_matrix=rng.random((n, 2)),
-    )
-    ms.compute_selection_by_condition_per_face(condselect="fi > 99")
-    ms.compute_selection_by_condition_per_vertex(condselect="vi < 99")
-    ms.set_matrix(transformmatrix=random_transform(), freeze=False)
-    ms.current_mesh().set_label("a label.with ümlaut")
-    ms.set_current_mesh_visibility(False)
-    mesh = ms.current_mesh()
-    for name in ATTRIBUTES:
-        mesh.add_vertex_custom_scalar_attribute(rng.normal(size=n), name)
-        mesh.add_vertex_custom_point_attribute(rng.normal(size=(n, 3)), name + "P")
-        mesh.add_face_custom_scalar_attribute(rng.normal(size=m), name + "-f")
-        mesh.add_face_custom_point_attribute(rng.normal(size=(m, 3)), name + ".F")
-    return ms
-
-
-STATE = (
-    "vertex_matrix",
-    "edge_matrix",
-    "vertex_color_array",
-    "vertex_scalar_array",
-    "vertex_tex_coord_matrix",
-    "vertex_selection_array",
-    "face_color_array",
-    "face_scalar_array",
-    "face_selection_array",
-    "transform_matrix",
-    "label",
-    "is_visible",
-    "has_vertex_color",
-    "has_vertex_scalar",
-    "has_vertex_tex_coord",
-    "has_face_color",
-    "has_face_scalar",
-    "has_wedge_tex_coord",
-    "texture_number",
-    "vertex_number",
-    "face_number",
-    "edge_number",
-    "is_compact",
+from tests.meshset.conftest import FLIP, SAMPLES, set_of
+from tests.meshset.contents import (
+    ATTRIBUTES,
+    assert_same_state,
+    plain_set,
+    quad_set,
+    rich_set,
+    state,
 )
-NEEDS = {
-    "vertex_color_array": "has_vertex_color",
-    "vertex_scalar_array": "has_vertex_scalar",
-    "vertex_tex_coord_matrix": "has_vertex_tex_coord",
-    "face_color_array": "has_face_color",
-    "face_scalar_array": "has_face_scalar",
-}
-
-
-def state(ms):
-    """All that PyMeshLab can tell of the current mesh, but for faces, wedges and normals."""
-    mesh = ms.current_mesh()
-    shown = {"texture names": sorted(mesh.textures())}
-    for name in STATE:
-        if name not in NEEDS or getattr(mesh, NEEDS[name])():
-            shown[name] = getattr(mesh, name)()
-    shown["attributes"] = sorted(ms.filter_parameter_values("ply"))
-    return shown
-
-
-def assert_same_state(left, right):
-    assert left.keys() == right.keys()
-    for name in left:
-        np.testing.assert_array_equal(left[name], right[name], err_msg=name)
 
 
 def attributes_of(ms):
@@ -161,124 +87,6 @@ def test_points_without_faces_keep_their_normals():
     np.testing.assert_allclose(ms.current_mesh().vertex_normal_matrix()[60:], normals[60:])
 
 
-# --- one thing at a time -----------------------------------------------------------------------
-
-
-def plain_set(tmp_path, radius=False, edges=()):
-    """A mesh from a file that has positions and faces, and what else is asked for."""
-    vertices, faces = meshes.bumpy_sphere(300)
-    more = [("radius", "<f4")] if radius else []
-    points = np.zeros(len(vertices), [(axis, "<f8") for axis in "xyz"] + more)
-    for n, axis in enumerate("xyz"):
-        points[axis] = vertices[:, n]
-    if radius:
-        points["radius"] = np.arange(len(vertices)) / 7
-    triangles = np.zeros(
-        len(faces), [("vertex_indices_count", "u1"), ("vertex_indices", "<i4", (3,))]
-    )
-    triangles["vertex_indices_count"] = 3
-    triangles["vertex_indices"] = faces
-    edges = np.array(edges, np.int32).reshape(-1, 2)
-    ply.write(tmp_path / "plain.ply", ply.PlyMesh(points, triangles, edges, ()))
-    ms = pymeshlab.MeshSet()
-    ms.load_new_mesh(str(tmp_path / "plain.ply"))
-    return ms
-
-
-def with_filter(name, **options):
-    def make(tmp_path):
-        ms = plain_set(tmp_path)
-        ms.apply_filter(name, **options)
-        return ms
-
-    return make
-
-
-def with_attribute(tmp_path):
-    ms = plain_set(tmp_path)
-    ms.current_mesh().add_face_custom_scalar_attribute(np.arange(596) / 7, "Mine")
-    return ms
-
-
-# Such that the two faces of an edge agree: else all edges would be seams.
-WEDGES = {"u0": "x0", "v0": "y0", "u1": "x1", "v1": "y1", "u2": "x2", "v2": "y2"}
-ALONE = {
-    "nothing": plain_set,
-    "vertex selection": with_filter("compute_selection_by_condition_per_vertex", condselect="vi>9"),
-    "face selection": with_filter("compute_selection_by_condition_per_face", condselect="fi>99"),
-    "edge selection": with_filter("compute_selection_crease_per_edge"),
-    "vertex colours": with_filter("compute_color_by_function_per_vertex", x="vi/2"),
-    "face colours": with_filter("compute_color_by_function_per_face", r="fi/3"),
-    "vertex scalars": with_filter("compute_scalar_by_function_per_vertex", q="x*y"),
-    "face scalars": with_filter("compute_scalar_by_function_per_face", q="fi/7"),
-    "vertex texture": with_filter("compute_texcoord_by_function_per_vertex", u="x", v="y"),
-    "wedge texture": with_filter("compute_texcoord_by_function_per_wedge", **WEDGES),
-    "quads": lambda _: quad_set(),
-    "radii": lambda tmp_path: plain_set(tmp_path, radius=True),
-    "edges": lambda tmp_path: plain_set(tmp_path, edges=[(0, 5), (9, 2)]),
-    "attribute": with_attribute,
-}
-
-
-@pytest.mark.parametrize("make", ALONE.values(), ids=ALONE)
-def test_each_thing_survives_alone_and_nothing_comes_with_it(make, tmp_path):
-    ms = make(tmp_path)
-    before, shown = take(ms), state(ms)
-    assert ms.apply_filter(FLIP)["flips"] > 0
-    assert_same_state(state(ms), shown)
-    after = take(ms)
-    assert after.ply.vertices.dtype == before.ply.vertices.dtype
-    assert after.ply.vertices.tobytes() == before.ply.vertices.tobytes()
-    assert after.ply.faces.dtype == before.ply.faces.dtype
-    for field in set(before.ply.faces.dtype.names) - {"vertex_indices", "flags", "texcoord"}:
-        np.testing.assert_array_equal(after.ply.faces[field], before.ply.faces[field])
-    for left, right in zip(after.attributes, before.attributes, strict=True):
-        assert left[:2] == right[:2]
-        np.testing.assert_array_equal(left.values, right.values)
-
-
-def test_a_plain_mesh_travels_with_positions_faces_and_normals_only(tmp_path, monkeypatch):
-    written, write = [], ply.write
-
-    def noted(path, mesh):
-        written.append(mesh)
-        write(path, mesh)
-
-    ms = plain_set(tmp_path)
-    monkeypatch.setattr(exchange.ply, "write", noted)
-    assert ms.apply_filter(FLIP)["flips"] > 0
-    part, whole = written
-    for mesh in (part, whole):
-        assert mesh.vertices.dtype.names == ("x", "y", "z", "nx", "ny", "nz")
-        assert mesh.faces.dtype.names == ("vertex_indices_count", "vertex_indices")
-    assert len(part.faces) == 100
-    assert len(whole.faces) == 596
-
-
-def test_the_part_that_is_tried_has_all_that_the_mesh_has():
-    """Flags, edges and attributes too, which need not lie at the beginning."""
-    whole = take(rich_set())
-    for records, selected_one in ((whole.ply.faces, 555), (whole.ply.vertices, 288)):
-        records["flags"] = 0
-        records["flags"][selected_one] = 0x20
-    part = exchange._part(whole)
-    assert len(part.ply.faces) == 101
-    assert selected(part.ply.faces).nonzero()[0].tolist() == [100]
-    assert selected(part.ply.vertices).sum() == 1
-    assert part.ply.faces.dtype == whole.ply.faces.dtype
-    assert len(part.attributes) == len(whole.attributes) == 4 * len(ATTRIBUTES)
-    corners = part.vertices[part.faces]
-    kept = [*range(100), 555]
-    np.testing.assert_array_equal(corners, whole.vertices[whole.faces[kept]])
-    np.testing.assert_array_equal(part.vertices[part.ply.edges], whole.vertices[whole.ply.edges])
-    place = {tuple(point): v for v, point in enumerate(whole.vertices.tolist())}
-    rows = [place[tuple(point)] for point in part.vertices.tolist()]
-    np.testing.assert_array_equal(part.normals, whole.normals[rows])
-    for less, more in zip(part.attributes, whole.attributes, strict=True):
-        wanted = rows if less.kind.startswith("v") else kept
-        np.testing.assert_array_equal(less.values, more.values[wanted])
-
-
 def test_faces_keep_their_slots(bumpy):
     before = bumpy.current_mesh().face_matrix()
     bumpy.apply_filter(FLIP, maxflips=1)
@@ -337,21 +145,6 @@ def test_selection_without_selected_faces_flips_nothing(bumpy):
 
 
 # --- polygons ----------------------------------------------------------------------------------
-
-
-def quad_set(height=0.4):
-    """A bumpy grid, quads on the left, triangles on the right."""
-    vertices, faces = meshes.grid(8, 8)
-    rng = np.random.default_rng(1)
-    vertices = vertices + np.column_stack([np.zeros((81, 2)), height * rng.random(81)])
-    polygons = []
-    for two in faces.reshape(-1, 2, 3):
-        (a, b, c), (_, _, d) = two
-        left = vertices[a, 0] < 4
-        polygons += [np.array([a, b, c, d])] if left else [np.array(t) for t in two]
-    ms = pymeshlab.MeshSet()
-    ms.add_mesh(pymeshlab.Mesh(vertex_matrix=vertices, face_list_of_indices=polygons), "quads")
-    return ms
 
 
 def polygons_of(ms):

@@ -86,6 +86,19 @@ def test_a_plain_mesh_travels_with_positions_faces_and_normals_only(tmp_path, mo
     assert len(whole.faces) == 596
 
 
+def test_the_whole_mesh_is_loaded_once(tmp_path, monkeypatch):
+    loads, load = [], exchange.native.load
+
+    def noted(target, path):
+        load(target, path)
+        loads.append((target is ms, target.current_mesh().face_number()))
+
+    ms = plain_set(tmp_path)
+    monkeypatch.setattr(exchange.native, "load", noted)
+    assert ms.apply_filter(FLIP)["flips"] > 0
+    assert loads == [(False, 100), (True, 596)]
+
+
 def test_the_part_that_is_tried_has_all_that_the_mesh_has():
     """Flags, edges and attributes too, which need not lie at the beginning."""
     whole = take(rich_set())

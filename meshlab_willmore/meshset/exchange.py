@@ -136,10 +136,12 @@ def _write(path: Path, snapshot: Snapshot) -> None:
 
 
 def _with_columns(records: np.ndarray, columns: dict[str, np.ndarray]) -> np.ndarray:
-    """Records with more fields, and without flags if none is set."""
+    """Records with more fields, and without flags if none is set; the same if nothing changes."""
     names = [n for n in records.dtype.names or () if n != "flags" or records["flags"].any()]
     fields = [(name, _READABLE.get(name, records.dtype[name])) for name in names]
     fields += [(name, values.dtype) for name, values in columns.items()]
+    if np.dtype(fields) == records.dtype:
+        return records
     new = np.empty(len(records), fields)
     for name in names:
         new[name] = records[name]

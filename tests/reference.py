@@ -190,6 +190,14 @@ def area(vertices, faces):
     return float(np.sum(np.sqrt(product)) / 4)
 
 
+def vertex_normals(vertices, faces):
+    """Unit sums of the normals of the faces at each vertex, weighted with the areas."""
+    sums = np.zeros_like(vertices)
+    for i, j, k in faces:
+        sums[[i, j, k]] += np.cross(vertices[j] - vertices[i], vertices[k] - vertices[i])
+    return sums / np.linalg.norm(sums, axis=1)[:, None]
+
+
 def cotangents(vertices, faces):
     """Sum of the cotangents of all angles of all faces."""
     return float(np.sum(1 / np.tan(corner_angles(vertices, faces))))

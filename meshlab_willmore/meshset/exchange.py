@@ -1,10 +1,11 @@
 """A mesh with other faces into its set, with nothing lost on the way.
 
 The mesh travels as PyMeshLab's own PLY (see `ply`), in a folder that is gone at the end:
-``pymeshlab.Mesh(...)`` takes no selection, faux edges, texture images or radii. Custom attributes
-go by the `Mesh` methods after that, because PyMeshLab 2025.7 crashes on attributes of a mesh that
-`add_mesh` copied. What PyMeshLab might still drop is found by comparing a trial copy before the
-set is touched.
+``pymeshlab.Mesh(...)`` takes no selection, faux edges, texture images or radii, and with `add_mesh`
+it takes three times as long, because both compute normals. The file brings them along. Custom
+attributes go by the `Mesh` methods after that, because PyMeshLab 2025.7 crashes on attributes of a
+mesh that `add_mesh` copied. What PyMeshLab might drop is found by comparing: a small part of the
+mesh in a set of its own before the user's set is touched, and then the whole.
 """
 
 from __future__ import annotations
@@ -30,69 +31,131 @@ from .snapshot import (
 )
 
 _PLACEHOLDER = "texture.png"
+_PART_FILE = "part.ply"
+_PART_SIZE = 100
+_NORMAL = ("nx", "ny", "nz")
+
+# MeshLab writes radii as double, but reads them into the place of a float.
+_READABLE = {"radius": np.dtype("<f4")}
 
 # Qt's quality of a PNG is how little it is compressed.
 _FASTEST = 100
 
 
-def give(ms: pymeshlab.MeshSet, snapshot: Snapshot, records: ply.PlyMesh) -> None:
-    """Put the mesh of `snapshot`, with other records, in the place of the current mesh of `ms`.
+def give(ms: pymeshlab.MeshSet, old: Snapshot, new: Snapshot) -> None:
+    """Put the mesh `new` in the place of the current mesh of `ms`.
 
     Parameters
     ----------
     ms : pymeshlab.MeshSet
-        Its current mesh is the one that `snapshot` was taken from. Changed in place, or not at
-        all if an error is raised.
-    records : PlyMesh
-        ``snapshot.ply`` after changes, see `with_faces`.
+        Its current mesh is the one that `old` was taken from. Changed in place, or not at all if
+        an error is raised.
+    old, new : Snapshot
+        The mesh before and after changes, see `with_faces`.
 
     Raises
     ------
     pymeshlab.PyMeshLabException
-        If PyMeshLab would drop something that `snapshot.unsupported` does not name.
+        If PyMeshLab would drop something that `new.unsupported` does not name.
     """
     with tempfile.TemporaryDirectory(prefix="meshlab_willmore_") as name:
-        path = _mesh_path(Path(name), snapshot.ply.textures)
-        _write_files(path, snapshot, records)
-        with _before_the_users_files(path.parent, snapshot.ply.textures):
-            trial = pymeshlab.MeshSet()
-            _load(trial, path, snapshot)
-            _verify(trial.current_mesh(), snapshot, records)
+        path = _mesh_path(Path(name), new.ply.textures)
+        part_path = path.with_name(_PART_FILE)
+        part = _part(new)
+        _write_images(path.parent, new)
+        _write(part_path, part)
+        _write(path, new)
+        with _before_the_users_files(path.parent, new.ply.textures):
+            _load_whole(pymeshlab.MeshSet(), part_path, part)
             layers.replace_current(
                 ms,
-                lambda target: _load(target, path, snapshot),
-                lambda target: _reload(target, path, snapshot),
-                snapshot.identity,
+                lambda target: _load_whole(target, path, new),
+                lambda target: _reload(target, path, old),
+                old.identity,
             )
 
 
-def with_faces(old: ply.PlyMesh, faces: np.ndarray, corners: np.ndarray) -> ply.PlyMesh:
+def with_faces(old: Snapshot, faces: np.ndarray, corners: np.ndarray) -> Snapshot:
     """The mesh with other faces.
 
     Parameters
     ----------
+    old : Snapshot
     faces : (m, 3) int32 ndarray
         The new faces, slot by slot.
     corners : (m, 3) int32 ndarray
         For each new corner the old corner (3 * face + place) whose wedge data it takes.
     """
-    records = old.faces.copy()
+    # Numba takes too long to import for those who don't flip.
+    from ..mesh.normals import vertex_normals
+
+    records = old.ply.faces.copy()
     records["vertex_indices"] = faces
-    records["flags"] = carry_side_bits(old, faces)
+    records["flags"] = carry_side_bits(old.ply, faces)
     if "texcoord" in (records.dtype.names or ()):
-        wedges = old.faces["texcoord"].reshape(-1, 2)
+        wedges = old.ply.faces["texcoord"].reshape(-1, 2)
         records["texcoord"] = wedges[corners.ravel()].reshape(-1, 6)
-    return old._replace(faces=records)
+    normals = vertex_normals(old.vertices, faces, old.normals)
+    return old._replace(ply=old.ply._replace(faces=records), normals=normals)
 
 
-def _write_files(path: Path, snapshot: Snapshot, records: ply.PlyMesh) -> None:
-    """The PLY and the images that it names."""
-    names = _file_names(records.textures)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    ply.write(path, records._replace(textures=tuple(names.values())))
-    for name, file_name in names.items():
+def _part(whole: Snapshot) -> Snapshot:
+    """A mesh of a few of the faces and edges, with all that the whole mesh has."""
+    kept = _first_and_flagged(whole.ply.faces)
+    faces = whole.ply.faces[kept]
+    edges = whole.ply.edges[:_PART_SIZE]
+    corners = np.concatenate((faces["vertex_indices"].ravel(), edges.ravel()))
+    used = np.union1d(corners, _first_and_flagged(whole.ply.vertices))
+    renumbered = np.searchsorted(used, corners).astype(np.int32)
+    faces["vertex_indices"] = renumbered[: 3 * len(faces)].reshape(-1, 3)
+    edges = renumbered[3 * len(faces) :].reshape(-1, 2)
+    rows = {"v": used, "f": kept}
+    return whole._replace(
+        ply=whole.ply._replace(vertices=whole.ply.vertices[used], faces=faces, edges=edges),
+        normals=whole.normals[used],
+        attributes=[a._replace(values=a.values[rows[a.kind[0]]]) for a in whole.attributes],
+    )
+
+
+def _first_and_flagged(records: np.ndarray) -> np.ndarray:
+    """Indices, ascending, of the first few records and of the first few with flags."""
+    flagged = np.flatnonzero(records["flags"])[:_PART_SIZE]
+    return np.union1d(np.arange(min(len(records), _PART_SIZE)), flagged)
+
+
+def _write(path: Path, snapshot: Snapshot) -> None:
+    """The PLY. It names the images; flags are left out where none is set."""
+    mesh = snapshot.ply
+    normals = dict(zip(_NORMAL, snapshot.normals.T, strict=True))
+    carried = mesh._replace(
+        vertices=_with_columns(mesh.vertices, normals),
+        faces=_with_columns(mesh.faces, {}),
+        textures=tuple(_file_names(mesh.textures).values()),
+    )
+    ply.write(path, carried)
+
+
+def _with_columns(records: np.ndarray, columns: dict[str, np.ndarray]) -> np.ndarray:
+    """Records with more fields, and without flags if none is set; the same if nothing changes."""
+    names = [n for n in records.dtype.names or () if n != "flags" or records["flags"].any()]
+    fields = [(name, _READABLE.get(name, records.dtype[name])) for name in names]
+    fields += [(name, values.dtype) for name, values in columns.items()]
+    if np.dtype(fields) == records.dtype:
+        return records
+    new = np.empty(len(records), fields)
+    for name in names:
+        new[name] = records[name]
+    for name, values in columns.items():
+        new[name] = values
+    return new
+
+
+def _write_images(folder: Path, snapshot: Snapshot) -> None:
+    """The images that the PLY names."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, file_name in _file_names(snapshot.ply.textures).items():
         if name in snapshot.images:
-            _save_image(snapshot.images[name], path.parent / file_name)
+            _save_image(snapshot.images[name], folder / file_name)
 
 
 def _file_names(textures: tuple[str, ...]) -> dict[str, str]:
@@ -133,15 +196,28 @@ def _save_image(image: pymeshlab.Image, path: Path) -> None:
     lossless.replace(path)
 
 
+def _load_whole(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
+    """Load a mesh as `_load` does, and raise if something of it was lost on the way."""
+    _load(ms, path, snapshot)
+    lost = _lost(ms, snapshot)
+    if lost:
+        raise pymeshlab.PyMeshLabException(
+            f"PyMeshLab does not carry all of this mesh: {', '.join(lost)} would change. "
+            "The mesh is left as it was."
+        )
+
+
 def _load(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
-    """Load the mesh of `_write_files` as a new current mesh, as a native filter leaves one."""
+    """Load the mesh of `_write` as a new current mesh, as a native filter leaves one."""
     native.load(ms, path)
     textures = snapshot.ply.textures
     if is_set_by_filter(textures) and textures[0] in snapshot.images:
         image = path.with_name(textures[0])
         _save_image(snapshot.images[textures[0]], image)
         native.apply(ms, "set_texture_per_mesh", textname=str(image))
-    native.apply(ms, "apply_normal_normalization_per_vertex")
+    if selected(snapshot.ply.vertices).any() or selected(snapshot.ply.faces).any():
+        # MeshLab counts what is selected after filters only; by it, others choose their defaults.
+        native.apply(ms, "apply_normal_normalization_per_vertex")
     mesh = ms.current_mesh()
     for attribute in snapshot.attributes:
         _, adder = ATTRIBUTE_METHODS[attribute.kind]
@@ -150,44 +226,42 @@ def _load(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
 
 def _reload(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
     """Load the mesh as it was."""
-    path.unlink()
-    _write_files(path, snapshot, snapshot.ply)
+    _write(path, snapshot)
     _load(ms, path, snapshot)
 
 
-def _verify(mesh: pymeshlab.Mesh, snapshot: Snapshot, records: ply.PlyMesh) -> None:
-    """Raise if `mesh`, as PyMeshLab read it, differs from what was to be carried."""
-    names = records.vertices.dtype.names or ()
-    face_names = records.faces.dtype.names or ()
+def _lost(ms: pymeshlab.MeshSet, snapshot: Snapshot) -> list[str]:
+    """In what the current mesh, as PyMeshLab read it, differs from what was to be carried."""
+    mesh, vertices, faces = ms.current_mesh(), snapshot.ply.vertices, snapshot.ply.faces
+    names, face_names = vertices.dtype.names or (), faces.dtype.names or ()
     checks = {
-        "vertex positions": lambda: _same(mesh.vertex_matrix(), snapshot.vertices),
-        "faces": lambda: _same(mesh.face_matrix(), records.faces["vertex_indices"]),
-        "edges": lambda: _same(mesh.edge_matrix(), records.edges),
-        "vertex selection": lambda: _same(
-            mesh.vertex_selection_array(), selected(records.vertices)
+        "vertex positions": lambda: all(
+            _same(column, vertices[axis])
+            for column, axis in zip(mesh.vertex_matrix().T, "xyz", strict=True)
         ),
-        "face selection": lambda: _same(mesh.face_selection_array(), selected(records.faces)),
+        "faces": lambda: _same(mesh.face_matrix(), faces["vertex_indices"]),
+        "edges": lambda: _same(mesh.edge_matrix(), snapshot.ply.edges),
+        "vertex selection": lambda: _same(mesh.vertex_selection_array(), selected(vertices)),
+        "face selection": lambda: _same(mesh.face_selection_array(), selected(faces)),
         "vertex colours": lambda: mesh.has_vertex_color() == ("red" in names),
         "vertex scalars": lambda: mesh.has_vertex_scalar() == ("quality" in names),
         "face colours": lambda: mesh.has_face_color() == ("red" in face_names),
         "face scalars": lambda: mesh.has_face_scalar() == ("quality" in face_names),
         "wedge texture coordinates": lambda: (
             "texcoord" not in face_names
-            or _same(mesh.wedge_tex_coord_matrix(), records.faces["texcoord"].reshape(-1, 2))
+            or _same(mesh.wedge_tex_coord_matrix(), faces["texcoord"].reshape(-1, 2))
         ),
         "textures": lambda: _sizes(mesh.textures()) >= _sizes(_images_to_be(snapshot)),
     }
-    lost = [what for what, holds in checks.items() if not holds()]
-    if lost:
-        raise pymeshlab.PyMeshLabException(
-            f"PyMeshLab does not carry all of this mesh: {', '.join(lost)} would change. "
-            "The mesh is left as it was."
-        )
+    return [what for what, holds in checks.items() if not holds()]
 
 
 def _same(left: np.ndarray, right: np.ndarray) -> bool:
-    equal_nan = np.issubdtype(right.dtype, np.floating)
-    return left.shape == right.shape and np.array_equal(left, right, equal_nan=equal_nan)
+    # PyMeshLab's matrices are stored column by column. Only texture coordinates can be NaN, and
+    # to look for that takes longer than to compare.
+    right = np.asfortranarray(right)
+    is_float = np.issubdtype(right.dtype, np.floating)
+    return np.array_equal(left, right) or (is_float and np.array_equal(left, right, equal_nan=True))
 
 
 def _images_to_be(snapshot: Snapshot) -> dict[str, pymeshlab.Image]:

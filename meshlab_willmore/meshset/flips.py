@@ -238,8 +238,8 @@ def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any]
             maxflips=None if maxflips == NO_LIMIT else maxflips,
         )
     if result.flips:
-        records = exchange.with_faces(snapshot.ply, result.faces, result.corners)
-        exchange.give(ms, snapshot, records)
+        flipped = exchange.with_faces(snapshot, result.faces, result.corners)
+        exchange.give(ms, snapshot, flipped)
     seconds = time.perf_counter() - start
     returned = {
         "flips": result.flips,

@@ -8,7 +8,7 @@ triangle mesh is understood here: little-endian, scalar properties, and lists of
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, BinaryIO, NamedTuple
 
 import numpy as np
 
@@ -79,23 +79,37 @@ def read(path: Path) -> PlyMesh:
     Raises
     ------
     ValueError
-        If a list has another length than a triangle's, or elements are missing.
+        If a list has another length than a triangle's, or the file ends early.
     KeyError
         If a property has an unknown type or is an unknown list.
     """
-    data = path.read_bytes()
-    start = data.index(_END) + len(_END)
-    elements, textures = _parse_header(data[:start].decode("utf-8", "surrogateescape").split("\n"))
-    blocks: dict[str, np.ndarray] = {}
-    for element in elements:
-        block = np.frombuffer(data, np.dtype(element.fields), element.size, start).copy()
-        start += block.nbytes
-        for name, length in _LIST_LENGTHS.items():
-            counts = name + _COUNT_SUFFIX
-            if counts in (block.dtype.names or ()) and (block[counts] != length).any():
-                raise ValueError(f"{path.name}: a list {name} does not have {length} entries")
-        blocks[element.name] = block
+    with path.open("rb") as file:
+        elements, textures = _parse_header(_header(file))
+        blocks = {element.name: _block(file, element) for element in elements}
     return PlyMesh(blocks["vertex"], blocks["face"], np.empty((0, 2), np.int32), textures)
+
+
+def _header(file: BinaryIO) -> list[str]:
+    """The lines of the header; the file stands at the first element afterwards."""
+    lines: list[str] = []
+    for line in file:
+        if line == _END:
+            return lines
+        lines.append(line.decode("utf-8", "surrogateescape").rstrip("\n"))
+    raise ValueError(f"{Path(file.name).name} has no whole header; is the disk full?")
+
+
+def _block(file: BinaryIO, element: _Element) -> np.ndarray:
+    records = np.fromfile(file, np.dtype(element.fields), element.size)
+    if len(records) < element.size:
+        raise ValueError(f"{Path(file.name).name} ends early; is the disk full?")
+    for name, length in _LIST_LENGTHS.items():
+        counts = name + _COUNT_SUFFIX
+        if counts in (records.dtype.names or ()) and (records[counts] != length).any():
+            raise ValueError(
+                f"{Path(file.name).name}: a list {name} does not have {length} entries"
+            )
+    return records
 
 
 def _type_name(dtype: np.dtype) -> str:
@@ -130,4 +144,4 @@ def write(path: Path, mesh: PlyMesh) -> None:
     with path.open("wb") as file:
         file.write("\n".join(header).encode("utf-8", "surrogateescape") + b"\n" + _END)
         for block in (mesh.vertices, mesh.faces, edges):
-            file.write(block.tobytes())
+            file.write(np.ascontiguousarray(block).data)

@@ -12,8 +12,10 @@ from .snapshot import Snapshot
 
 # Bits of a face's flags (vcg/simplex/face/base.h); bit i of a group belongs to side i, i+1.
 _BORDER_BIT = 6
+_SELECTED_BIT = 15
 _FAUX_BIT = 18
-_SIDE_BITS = (_BORDER_BIT, _FAUX_BIT)
+_SIDE_BITS = (_BORDER_BIT, _SELECTED_BIT, _FAUX_BIT)
+_ALL_SIDES = 0b111
 
 
 def fixed_edges(snapshot: Snapshot) -> np.ndarray:
@@ -25,13 +27,22 @@ def fixed_edges(snapshot: Snapshot) -> np.ndarray:
         Vertex pairs. A seam is an edge whose two faces have other texture coordinates at one of
         its ends, or another texture.
     """
+    flags = snapshot.ply.faces["flags"]
+    has_seams = "texcoord" in (snapshot.ply.faces.dtype.names or ())
+    if not (has_seams or (flags & _mask(_FAUX_BIT)).any()):
+        return np.empty((0, 2), np.int32)
     tails = snapshot.faces
     heads = np.roll(tails, -1, axis=1)
-    faux = _side_bits(snapshot.ply.faces["flags"], _FAUX_BIT)
+    faux = _side_bits(flags, _FAUX_BIT)
     fixed = faux | faux.any(axis=1, keepdims=True)
-    if "texcoord" in (snapshot.ply.faces.dtype.names or ()):
+    if has_seams:
         fixed |= _seams(snapshot)
     return np.column_stack((tails[fixed], heads[fixed])).astype(np.int32)
+
+
+def _mask(*first_bits: int) -> np.int32:
+    """The bits of all sides, of groups that start at `first_bits`."""
+    return np.int32(sum(_ALL_SIDES << bit for bit in first_bits))
 
 
 def _side_bits(flags: np.ndarray, first_bit: int) -> np.ndarray:
@@ -67,11 +78,11 @@ def _partners(keys: np.ndarray, wanted: np.ndarray) -> np.ndarray:
 def carry_side_bits(old: ply.PlyMesh, faces: np.ndarray) -> np.ndarray:
     """The old flags, with the bits of the sides moved to where each side is now."""
     flags = old.faces["flags"].copy()
+    mask = _mask(*_SIDE_BITS)
+    if not (flags & mask).any():
+        return flags
     before = old.faces["vertex_indices"]
     changed = np.flatnonzero((before != faces).any(axis=1))
-    mask = np.int32(sum(7 << bit for bit in _SIDE_BITS))
-    if not (flags[changed] & mask).any():
-        return flags
     n = np.int64(len(old.vertices))
     old_keys = before[changed] * n + np.roll(before[changed], -1, axis=1)
     new_keys = faces[changed] * n + np.roll(faces[changed], -1, axis=1)

@@ -1,7 +1,9 @@
 """All that PyMeshLab shows of a mesh, read at once.
 
-The mesh comes as PyMeshLab's own PLY (see `ply`): its methods tell nothing of faux edges, texture
-indices or radii. Custom attributes are read by the methods of `Mesh`, under their real names.
+The mesh comes as PyMeshLab's own PLY (see `ply`): its methods tell nothing of faux or selected
+edges, texture indices or radii, not even whether there are any (`polygonal_face_list` takes three
+times as long as the file). Custom attributes are read by the methods of `Mesh`, under their real
+names.
 """
 
 from __future__ import annotations
@@ -47,6 +49,8 @@ class Snapshot(NamedTuple):
     ----------
     ply : PlyMesh
         Positions, faces, flags, colours, scalars, radii, texture coordinates, names of textures.
+    normals : (n, 3) float64 ndarray
+        The normals of the vertices, as they are.
     attributes : list of Attribute
         The custom attributes.
     images : dict of str to pymeshlab.Image
@@ -58,6 +62,7 @@ class Snapshot(NamedTuple):
     """
 
     ply: ply.PlyMesh
+    normals: np.ndarray
     attributes: list[Attribute]
     images: dict[str, pymeshlab.Image]
     identity: layers.Identity
@@ -71,8 +76,8 @@ class Snapshot(NamedTuple):
 
     @property
     def faces(self) -> np.ndarray:
-        """(m, 3) int32 view of the records."""
-        return self.ply.faces["vertex_indices"]
+        """(m, 3) int32, a copy: entries of the records start at odd addresses."""
+        return np.ascontiguousarray(self.ply.faces["vertex_indices"])
 
     @property
     def selected_faces(self) -> np.ndarray:
@@ -95,10 +100,15 @@ def take(ms: pymeshlab.MeshSet) -> Snapshot:
         attributes = _take_attributes(mesh, _attribute_names(copy, folder, attribute_keys))
     records = records._replace(edges=mesh.edge_matrix().astype(np.int32))
     images = mesh.textures()
-    unsupported = [*_curvatures(mesh), *_lost_names(records.textures, images)]
+    unsupported = [
+        *_curvatures(mesh),
+        *_lost_digits(records),
+        *_lost_names(records.textures, images),
+    ]
     if len(attributes) < len(attribute_keys):
         unsupported.append("custom attributes with odd names")
-    return Snapshot(records, attributes, images, layers.identity(mesh), unsupported)
+    normals = mesh.vertex_normal_matrix()
+    return Snapshot(records, normals, attributes, images, layers.identity(mesh), unsupported)
 
 
 @contextmanager
@@ -176,6 +186,13 @@ def _curvatures(mesh: pymeshlab.Mesh) -> Iterator[str]:
             yield f"the principal curvature directions per {element}"
 
 
+def _lost_digits(records: ply.PlyMesh) -> Iterator[str]:
+    if "radius" in (records.vertices.dtype.names or ()):
+        radii = records.vertices["radius"]
+        if not np.array_equal(radii.astype(np.float32), radii, equal_nan=True):
+            yield "the last digits of the radii"
+
+
 def _lost_names(textures: tuple[str, ...], images: dict[str, pymeshlab.Image]) -> Iterator[str]:
     missing = [name for name in textures if name not in images]
     if missing:
@@ -197,4 +214,6 @@ def is_set_by_filter(names: tuple[str, ...]) -> bool:
 
 def selected(records: np.ndarray) -> np.ndarray:
     """Which of the vertices or faces are selected, (count,) bool."""
+    if "flags" not in (records.dtype.names or ()):
+        return np.zeros(len(records), bool)
     return (records["flags"] & _SELECTED).astype(bool)

@@ -8,93 +8,19 @@ import pymeshlab
 import pytest
 
 from meshlab_willmore import optimize_flips
-from meshlab_willmore.meshset import exchange, sides
+from meshlab_willmore.meshset import exchange, ply, sides
 from meshlab_willmore.meshset.sides import fixed_edges
 from meshlab_willmore.meshset.snapshot import take
 from tests import meshes
-from tests.meshset.conftest import FLIP, SAMPLES, random_transform, set_of
-
-ATTRIBUTES = ["My Attr", "x", "w"]
-
-
-def rich_set():
-    """A mesh with all that `pymeshlab.Mesh` and `MeshSet` can put on one."""
-    vertices, faces = meshes.bumpy_sphere(300)
-    n, m = len(vertices), len(faces)
-    rng = np.random.default_rng(7)
-    ms = set_of(
-        vertices,
-        faces,
-        edge_matrix=np.array([[0, 5], [9, 2]]),
-        v_scalar_array=rng.normal(size=n),
-        f_scalar_array=rng.normal(size=m),
-        v_color_matrix=rng.random((n, 4)),
-        f_color_matrix=rng.random((m, 4)),
-        v_tex_coords_matrix=rng.random((n, 2)),
-    )
-    ms.compute_selection_by_condition_per_face(condselect="fi > 99")
-    ms.compute_selection_by_condition_per_vertex(condselect="vi < 99")
-    ms.set_matrix(transformmatrix=random_transform(), freeze=False)
-    ms.current_mesh().set_label("a label.with ümlaut")
-    ms.set_current_mesh_visibility(False)
-    mesh = ms.current_mesh()
-    for name in ATTRIBUTES:
-        mesh.add_vertex_custom_scalar_attribute(rng.normal(size=n), name)
-        mesh.add_vertex_custom_point_attribute(rng.normal(size=(n, 3)), name + "P")
-        mesh.add_face_custom_scalar_attribute(rng.normal(size=m), name + "-f")
-        mesh.add_face_custom_point_attribute(rng.normal(size=(m, 3)), name + ".F")
-    return ms
-
-
-STATE = (
-    "vertex_matrix",
-    "edge_matrix",
-    "vertex_color_array",
-    "vertex_scalar_array",
-    "vertex_tex_coord_matrix",
-    "vertex_selection_array",
-    "face_color_array",
-    "face_scalar_array",
-    "face_selection_array",
-    "transform_matrix",
-    "label",
-    "is_visible",
-    "has_vertex_color",
-    "has_vertex_scalar",
-    "has_vertex_tex_coord",
-    "has_face_color",
-    "has_face_scalar",
-    "has_wedge_tex_coord",
-    "texture_number",
-    "vertex_number",
-    "face_number",
-    "edge_number",
-    "is_compact",
+from tests.meshset.conftest import FLIP, SAMPLES, set_of
+from tests.meshset.contents import (
+    ATTRIBUTES,
+    assert_same_state,
+    plain_set,
+    quad_set,
+    rich_set,
+    state,
 )
-NEEDS = {
-    "vertex_color_array": "has_vertex_color",
-    "vertex_scalar_array": "has_vertex_scalar",
-    "vertex_tex_coord_matrix": "has_vertex_tex_coord",
-    "face_color_array": "has_face_color",
-    "face_scalar_array": "has_face_scalar",
-}
-
-
-def state(ms):
-    """All that PyMeshLab can tell of the current mesh, but for faces, wedges and normals."""
-    mesh = ms.current_mesh()
-    shown = {"texture names": sorted(mesh.textures())}
-    for name in STATE:
-        if name not in NEEDS or getattr(mesh, NEEDS[name])():
-            shown[name] = getattr(mesh, name)()
-    shown["attributes"] = sorted(ms.filter_parameter_values("ply"))
-    return shown
-
-
-def assert_same_state(left, right):
-    assert left.keys() == right.keys()
-    for name in left:
-        np.testing.assert_array_equal(left[name], right[name], err_msg=name)
 
 
 def attributes_of(ms):
@@ -140,19 +66,25 @@ def test_a_mesh_without_extras_gets_none():
 def test_normals_are_those_that_a_native_flip_leaves(bumpy):
     bumpy.apply_filter(FLIP)
     mesh = bumpy.current_mesh()
-    np.testing.assert_allclose(mesh.face_normal_matrix(), _unit_normals(mesh), atol=1e-12)
-    normals = mesh.vertex_normal_matrix()
-    np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1.0)
-    a_fresh_one = set_of(mesh.vertex_matrix(), mesh.face_matrix())
-    a_fresh_one.apply_normal_normalization_per_vertex()
-    expected = a_fresh_one.current_mesh().vertex_normal_matrix()
-    np.testing.assert_allclose(normals, expected, atol=1e-12)
+    native = set_of(mesh.vertex_matrix(), mesh.face_matrix())
+    native.meshing_edge_flip_by_planar_optimization(pthreshold=0, iterations=0)
+    twin = native.current_mesh()
+    np.testing.assert_array_equal(twin.face_matrix(), mesh.face_matrix(), "nothing to flip")
+    np.testing.assert_allclose(mesh.vertex_normal_matrix(), twin.vertex_normal_matrix(), atol=1e-12)
+    # Those of MeshLab's planar flip are as long as twice the areas, those of a new mesh are units.
+    normals = twin.face_normal_matrix()
+    units = normals / np.linalg.norm(normals, axis=1)[:, None]
+    np.testing.assert_allclose(mesh.face_normal_matrix(), units, atol=1e-12)
 
 
-def _unit_normals(mesh):
-    a, b, c = mesh.vertex_matrix()[mesh.face_matrix()].transpose(1, 0, 2)
-    normals = np.cross(b - a, c - a)
-    return normals / np.linalg.norm(normals, axis=1)[:, None]
+def test_points_without_faces_keep_their_normals():
+    vertices, faces = meshes.bumpy_sphere(60)
+    vertices = np.vstack((vertices, [[9.0, 9, 9], [8, 8, 8]]))
+    normals = np.tile([0.0, 0.6, 0.8], (62, 1))
+    ms = set_of(vertices, faces, v_normals_matrix=normals)
+    np.testing.assert_array_equal(ms.current_mesh().vertex_normal_matrix()[60:], normals[60:])
+    assert ms.apply_filter(FLIP)["flips"] > 0
+    np.testing.assert_allclose(ms.current_mesh().vertex_normal_matrix()[60:], normals[60:])
 
 
 def test_faces_keep_their_slots(bumpy):
@@ -175,26 +107,44 @@ def test_only_selected_faces_change(bumpy):
     assert (before[:300] != bumpy.current_mesh().face_matrix()[:300]).any()
 
 
+def test_native_filters_still_see_that_faces_are_selected(bumpy):
+    name = "meshing_edge_flip_by_planar_optimization"
+    for _ in range(2):
+        assert not bumpy.filter_parameter_values(name)["selection"]
+        bumpy.apply_filter(FLIP, maxflips=1)
+    bumpy.compute_selection_by_condition_per_face(condselect="fi > 299")
+    for _ in range(2):
+        assert bumpy.filter_parameter_values(name)["selection"]
+        bumpy.apply_filter(FLIP, maxflips=1)
+
+
+def selected_edges(ms):
+    """The pairs of points of the selected edges; they become a layer of their own for it."""
+    ms.generate_polyline_from_selected_edges()
+    mesh = ms.current_mesh()
+    points = mesh.vertex_matrix()[mesh.edge_matrix()]
+    return {frozenset(map(tuple, edge)) for edge in points.tolist()}
+
+
+def test_selected_edges_stay_selected_unless_they_are_flipped(bumpy):
+    bumpy.compute_selection_crease_per_edge(angledegneg=-5, angledegpos=20)
+    vertices, faces = bumpy.current_mesh().vertex_matrix(), bumpy.current_mesh().face_matrix()
+    twin = set_of(vertices, faces)
+    twin.compute_selection_crease_per_edge(angledegneg=-5, angledegpos=20)
+    before = selected_edges(twin)
+    bumpy.apply_filter(FLIP)
+    faces = bumpy.current_mesh().face_matrix()
+    sides = vertices[np.stack((faces, np.roll(faces, -1, axis=1)), axis=-1)].reshape(-1, 2, 3)
+    there = {frozenset(map(tuple, side)) for side in sides.tolist()}
+    assert 0 < len(before & there) < len(before) < 894
+    assert selected_edges(bumpy) == before & there
+
+
 def test_selection_without_selected_faces_flips_nothing(bumpy):
     assert bumpy.apply_filter(FLIP, selection=True)["flips"] == 0
 
 
 # --- polygons ----------------------------------------------------------------------------------
-
-
-def quad_set(height=0.4):
-    """A bumpy grid, quads on the left, triangles on the right."""
-    vertices, faces = meshes.grid(8, 8)
-    rng = np.random.default_rng(1)
-    vertices = vertices + np.column_stack([np.zeros((81, 2)), height * rng.random(81)])
-    polygons = []
-    for two in faces.reshape(-1, 2, 3):
-        (a, b, c), (_, _, d) = two
-        left = vertices[a, 0] < 4
-        polygons += [np.array([a, b, c, d])] if left else [np.array(t) for t in two]
-    ms = pymeshlab.MeshSet()
-    ms.add_mesh(pymeshlab.Mesh(vertex_matrix=vertices, face_list_of_indices=polygons), "quads")
-    return ms
 
 
 def polygons_of(ms):
@@ -220,7 +170,8 @@ def test_polygons_of_a_real_mesh_survive():
     assert polygons_of(ms) == before
 
 
-def test_side_bits_move_with_their_sides():
+@pytest.mark.parametrize("first_bit", sides._SIDE_BITS)
+def test_side_bits_move_with_their_sides(first_bit):
     """A flip beside a marked side turns its face in the slot: the mark has to stay on the side."""
     ms = set_of(*meshes.patch(60))
     snapshot = take(ms)
@@ -228,20 +179,20 @@ def test_side_bits_move_with_their_sides():
     marked = np.flatnonzero(records["vertex_indices"] % 2 == 0)
     records["flags"] = 0
     for side in marked:
-        records["flags"][side // 3] |= 1 << (sides._BORDER_BIT + side % 3)
+        records["flags"][side // 3] |= 1 << (first_bit + side % 3)
     new = optimize_flips(snapshot.vertices, snapshot.faces)
     assert new.flips > 10
     flags = sides.carry_side_bits(snapshot.ply, new.faces)
-    before = sides_of(snapshot.faces, records["flags"])
-    after = sides_of(new.faces, flags)
+    before = sides_of(snapshot.faces, records["flags"], first_bit)
+    after = sides_of(new.faces, flags, first_bit)
     kept = before.keys() & after.keys()
     assert len(kept) < len(before), "some sides are flipped away"
     assert {side: after[side] for side in kept} == {side: before[side] for side in kept}
     assert not any(after[side] for side in after.keys() - kept), "new sides are not marked"
 
 
-def sides_of(faces, flags):
-    bits = sides._side_bits(flags, sides._BORDER_BIT)
+def sides_of(faces, flags, first_bit):
+    bits = sides._side_bits(flags, first_bit)
     heads = np.roll(faces, -1, axis=1)
     both = zip(faces.ravel().tolist(), heads.ravel().tolist(), strict=True)
     return dict(zip(both, bits.ravel().tolist(), strict=True))
@@ -430,6 +381,22 @@ def test_what_would_be_lost_is_an_error_before_anything_changes(bumpy):
     assert_same_state(after, before)
 
 
+def test_radii_that_a_float_does_not_hold_are_an_error(tmp_path, monkeypatch):
+    """MeshLab's files bring in none, but its filters could."""
+    ms = plain_set(tmp_path, radius=True)
+    read = ply.read
+
+    def scaled(path):
+        mesh = read(path)
+        mesh.vertices["radius"] /= 3
+        return mesh
+
+    monkeypatch.setattr(exchange.ply, "read", scaled)
+    with pytest.raises(pymeshlab.PyMeshLabException, match="last digits of the radii"):
+        ms.apply_filter(FLIP)
+    assert ms.apply_filter(FLIP, allowloss=True)["flips"] > 0
+
+
 def test_attributes_that_cannot_be_named_are_an_error(bumpy):
     bumpy.current_mesh().add_vertex_custom_scalar_attribute(np.zeros(300), "two\nlines")
     with pytest.raises(pymeshlab.PyMeshLabException, match="odd names"):
@@ -459,6 +426,31 @@ def test_what_pymeshlab_drops_is_noticed(bumpy, monkeypatch):
     with pytest.raises(pymeshlab.PyMeshLabException, match="vertex selection, face selection"):
         bumpy.apply_filter(FLIP)
     np.testing.assert_array_equal(bumpy.current_mesh().face_matrix(), faces)
+
+
+def test_what_only_the_whole_mesh_would_lose_is_put_back(bumpy, monkeypatch):
+    """As above, where the part that is tried first comes through."""
+    bumpy.compute_selection_by_condition_per_vertex(condselect="vi < 99")
+    carry, calls = exchange._load, []
+
+    def forgetful(ms, path, snapshot):
+        carry(ms, path, snapshot)
+        calls.append(ms is bumpy)
+        if len(calls) == 2:
+            ms.set_selection_all()
+
+    before, faces = state(bumpy), bumpy.current_mesh().face_matrix()
+    normals = bumpy.current_mesh().vertex_normal_matrix()
+    monkeypatch.setattr(exchange, "_load", forgetful)
+    with pytest.raises(pymeshlab.PyMeshLabException, match="vertex selection, face selection"):
+        bumpy.apply_filter(FLIP)
+    assert calls == [False, True, True]
+    assert bumpy.current_mesh_id() == 0
+    assert_same_state(state(bumpy), before)
+    np.testing.assert_array_equal(bumpy.current_mesh().face_matrix(), faces)
+    found = bumpy.current_mesh().vertex_normal_matrix()
+    scale = np.linalg.norm(normals, axis=1)[:, None]
+    np.testing.assert_allclose(found, normals / scale, atol=1e-12)
 
 
 def test_a_full_disk_changes_nothing(bumpy, monkeypatch, tmp_path):

@@ -56,3 +56,11 @@ def test_read_refuses_faces_that_are_no_triangles(saved):
     path.write_bytes(data[:first_count] + b"\x04" + data[first_count + 1 :])
     with pytest.raises(ValueError, match="vertex_indices does not have 3 entries"):
         ply.read(path)
+
+
+@pytest.mark.parametrize("length", [20, -20])
+def test_read_refuses_a_file_that_is_cut_short(saved, length):
+    path, *_ = saved
+    path.write_bytes(path.read_bytes()[:length])
+    with pytest.raises(ValueError, match="is the disk full"):
+        ply.read(path)

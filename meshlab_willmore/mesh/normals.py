@@ -1,0 +1,66 @@
+"""Normals of vertices as MeshLab's flip filters leave them."""
+
+import math
+
+import numpy as np
+
+from .jit import jit
+from .points import normal, point
+
+
+def vertex_normals(vertices, faces, others):
+    """Return the unit normals of all vertices.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+    faces : (m, 3) int32
+    others : (n, 3) float64
+        The normals of the vertices without faces, of any length: points have their own.
+
+    Returns
+    -------
+    (n, 3) float64
+        For a vertex with faces the sum of their normals, each as long as twice the face's area,
+        scaled to length 1. Zero stays zero.
+
+    Notes
+    -----
+    The sums and their order are those of ``UpdateNormal::PerVertexNormalizedPerFace`` in VCG
+    (``vcg/complex/algorithms/update/normal.h``), which MeshLab's planar flip ends with.
+    """
+    normals = np.array(others, order="C")
+    _clear(faces, normals)
+    _add_normals(vertices, faces, normals)
+    _normalize(normals)
+    return normals
+
+
+@jit
+def _clear(faces, normals):
+    """Set the normals of vertices with faces to zero."""
+    for f in range(len(faces)):
+        for c in range(3):
+            normals[faces[f, c], :] = 0.0
+
+
+@jit
+def _add_normals(vertices, faces, normals):
+    """Add the normal of each face to those of its corners."""
+    for f in range(len(faces)):
+        a, b, c = faces[f, 0], faces[f, 1], faces[f, 2]
+        n = normal(point(vertices, a), point(vertices, b), point(vertices, c))
+        for v in (a, b, c):
+            normals[v, 0] += n.x
+            normals[v, 1] += n.y
+            normals[v, 2] += n.z
+
+
+@jit
+def _normalize(normals):
+    """Scale all normals to length 1."""
+    for v in range(len(normals)):
+        x, y, z = normals[v, 0], normals[v, 1], normals[v, 2]
+        length = math.sqrt(x * x + y * y + z * z)
+        if length > 0.0:
+            normals[v, 0], normals[v, 1], normals[v, 2] = x / length, y / length, z / length

@@ -81,11 +81,11 @@ def rounds_by_scanning(mesh, rules, energy):
             around = [ranks[other] for other in six_faces(mesh, entry[2]) if other in ranks]
             if min(around) == entry:
                 peaks.append(entry)
-        flipped = []
+        flipped, is_new = [], {h: makes_new_edge(mesh, h) for _, _, h, _ in peaks}
         for _, _, h, is_tie in sorted(peaks):
             if guards.folds(mesh, h, rules.fold) or (is_tie and flipped_ends(mesh, h) in gone):
                 asleep[ends(mesh, h)] = None
-            elif not makes_new_edge(mesh, h):
+            elif not (is_new[h] and makes_new_edge(mesh, h)):
                 asleep[ends(mesh, h)] = flipped_ends(mesh, h)
             else:
                 if is_tie:
@@ -152,10 +152,10 @@ def peaks_of(board, edges, number=1):
 
 
 def flip_all(board, edges):
-    """Flip the peaks among the edges in one round; return those, and what was done."""
+    """Flip the peaks among the edges in one round; return the board, those, and what was done."""
     _, peaks, first = peaks_of(board, edges)
-    _, done = parallel_greedy._flip_all(board, peaks, first, 10**6)
-    return list(board.done[: done.flipped]), done
+    board, done = parallel_greedy._flip_all(board, peaks, first, 10**6)
+    return board, list(board.done[: done.flipped]), done
 
 
 @pytest.mark.parametrize("energy", ENERGIES)
@@ -165,7 +165,7 @@ def test_the_order_of_the_flips_of_a_round_does_not_matter(energy, seed):
     board, count = scored(mesh, rules_for(energy, FREE), energy)
     candidates = board.candidates[:count].copy()
     verdict, _, _ = peaks_of(board, candidates, 7)
-    chosen, done = flip_all(board, candidates)
+    board, chosen, done = flip_all(board, candidates)
     assert len(chosen) > 1
     assert set(chosen) <= set(candidates[verdict == IS_PEAK])
     assert KINDS[energy].is_wide or len(chosen) + done.refused == (verdict != STAYS).sum()
@@ -210,7 +210,7 @@ def test_of_two_flips_to_the_same_edge_the_smaller_waits_until_it_is_gone(larger
     board = with_ranks(mesh, {one: 2.0, other: 1.0})
     verdict, _, _ = peaks_of(board, two, 7)
     assert list(verdict) == [IS_PEAK, IS_PEAK]
-    flipped, done = flip_all(board, two)
+    board, flipped, done = flip_all(board, two)
     assert flipped == [one]
     assert list(board.done[-done.refused :]) == [other]
     assert board.rank[other] == NEVER

@@ -6,11 +6,22 @@ and would write a new file in every process, so they are not cached; a thin ``ji
 fixes the parameter is (see `meshlab_willmore.search.entries`).
 """
 
-from numba import njit
+from collections.abc import Callable
+
+from .. import quick_start
+
+quick_start.import_numba()
+from numba import njit  # noqa: E402
+
+
+quick_start.load_numba()
 
 # Division by zero gives inf or nan, as in NumPy: kernels test for finite results where it matters.
 generic = njit(error_model="numpy")
 _cached = njit(cache=True, error_model="numpy")
+
+# All that `jit` has returned in this process.
+KERNELS: list[Callable] = []
 
 
 def jit(function):
@@ -22,6 +33,20 @@ def jit(function):
     is code, and others could put theirs there.
     """
     try:
-        return _cached(function)
+        kernel = _cached(function)
     except RuntimeError:
-        return generic(function)
+        kernel = generic(function)
+    KERNELS.append(kernel)
+    return kernel
+
+
+def cache_folder():
+    """Return the folder where kernels are kept.
+
+    Returns
+    -------
+    str or None
+        The one of the first kernel (each source folder has its own, side by side). None: there is
+        no cache, or the compiler is switched off.
+    """
+    return getattr(getattr(KERNELS[0], "stats", None), "cache_path", None)

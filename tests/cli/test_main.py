@@ -24,7 +24,9 @@ main(["demo", "--output", sys.argv[1]])
 """
 LIGHT_RUN = """
 import sys
+sys.argv[0] = "/usr/bin/meshlab-willmore"
 import meshlab_willmore
+assert "numba" not in sys.modules
 package = set(sys.modules)
 from meshlab_willmore.cli import main
 for name in sys.argv[1:]:

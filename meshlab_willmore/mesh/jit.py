@@ -13,6 +13,7 @@ from .. import quick_start
 quick_start.import_numba()
 from numba import njit  # noqa: E402
 
+from . import compiling  # noqa: E402, F401 (it tells of what is compiled)
 
 quick_start.load_numba()
 

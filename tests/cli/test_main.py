@@ -13,7 +13,7 @@ from click.testing import CliRunner
 import meshlab_willmore
 from meshlab_willmore.cli import main
 
-COMMANDS = ["convert", "demo", "doctor", "filters", "flip", "lint", "measure", "run"]
+COMMANDS = ["convert", "demo", "doctor", "filters", "flip", "lint", "measure", "run", "warmup"]
 STORY = "meshlab_willmore.demo.story.tell"
 WHOLE_RUN = """
 import sys

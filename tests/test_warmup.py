@@ -45,7 +45,7 @@ with compiling.forbidden():
         ms.meshing_poly_to_tri()
         ms.meshing_surface_subdivision_midpoint(threshold=pymeshlab.PercentageValue(0))
         ms.apply_coord_two_steps_smoothing()
-        ms.compute_selection_by_condition_per_face(condselect="x < 0.2")
+        ms.compute_selection_by_condition_per_face(condselect="x0 < 0.2")
         ms.compute_texcoord_parametrization_triangle_trivial_per_wedge()
         ms.apply_filter(FLIP, **options)
         ms.get_willmore_measures()

@@ -31,8 +31,10 @@ def _plain_functions():
         if found.name.endswith("__main__"):
             continue
         module = importlib.import_module(found.name)
-        for value in vars(module).values():
-            if isinstance(value, types.FunctionType) and value.__module__ == module.__name__:
+        for name, value in vars(module).items():
+            is_ours = isinstance(value, types.FunctionType) and value.__module__ == module.__name__
+            # Beside some there is a compiled version, which kernels call.
+            if is_ours and f"_compiled_{name}" not in vars(module):
                 yield value
 
 

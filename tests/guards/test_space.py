@@ -211,7 +211,13 @@ def test_kernels_refuse_nothing_without_a_guard(kind):
     assert (mesh.origin != before).any()
 
 
-def test_an_active_space_stays_as_it_is():
-    mesh, _ = unit_mesh(*meshes.crumpled(4))
+def test_an_active_space_stays_as_it_is_and_is_followed_in_kernels():
+    mesh, _ = unit_mesh(*meshes.bumpy_sphere(60))
     space = spaces.space_of(mesh)
     assert spaces.without(space) is space
+    before = space.box.copy()
+    for h in range(len(mesh.origin)):
+        if can_flip(mesh, h):
+            _flipped(mesh, space, h)
+    assert (space.box != before).any()
+    np.testing.assert_array_equal(space.box, spaces.renewed(space, mesh).box)

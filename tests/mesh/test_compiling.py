@@ -87,6 +87,26 @@ def test_the_outermost_kernels_are_counted():
     assert found == []
 
 
+def test_all_of_the_time_counts(monkeypatch):
+    monkeypatch.setattr(compiling.time, "perf_counter", iter([1.0, 3.0]).__next__)
+    with compiling.counted() as found:
+        kernels()[1](1.0)
+    assert [compiled.seconds for compiled in found] == [2.0]
+
+
+def test_one_that_never_heard_of_what_was_forbidden_counts_the_next():
+    half, _ = kernels()
+    with contextlib.ExitStack() as stack:
+        stack.enter_context(compiling.forbidden())
+        inner = contextlib.ExitStack()
+        found = inner.enter_context(compiling.counted())
+        with pytest.raises(compiling.NotCompiledError):
+            half(1.0)
+    with inner:
+        half(1.0)
+    assert len(found) == 1
+
+
 def test_what_is_forbidden_is_not_compiled_and_may_be_later():
     half, quarter = kernels()
     half(1.0)

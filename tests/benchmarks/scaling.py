@@ -12,6 +12,7 @@ in memory and all kernels loaded.
 
 import argparse
 import functools
+import inspect
 import json
 import pathlib
 import resource
@@ -26,6 +27,7 @@ from meshlab_willmore import optimize_flips
 from tests.benchmarks import machine, surfaces
 from tests.studies.models import print_table
 
+DEFAULT_SEARCH = inspect.signature(optimize_flips).parameters["search"].default
 LEAST = 10_000
 STEP = 10
 SMALL = 1_000
@@ -126,7 +128,7 @@ def main(arguments):
     parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.scaling")
     parser.add_argument("--most", type=int, default=1_000_000, help="faces")
     parser.add_argument("--rounds", type=int, default=3)
-    parser.add_argument("--search", default="greedy")
+    parser.add_argument("--search", default=DEFAULT_SEARCH)
     parser.add_argument("--mesh", help=argparse.SUPPRESS)
     options = parser.parse_args(arguments)
     if options.mesh:

@@ -11,6 +11,7 @@ import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from . import quick_start
 from ._version import __version__
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
     from .meshset.register import is_registered, register, unregister
     from .optimize import FlipResult, optimize_flips
 
-# Numba takes longer to import than PyMeshLab: what needs it is fetched when it is first used.
+# Kernels take their time to load: what needs them is fetched when it is first used.
 _HOMES = {
     "FlipResult": "optimize",
     "Measures": "measure",
@@ -69,6 +70,11 @@ def __dir__() -> list[str]:
     return sorted([*globals(), *__all__])
 
 
+def _is_command_line() -> bool:
+    # As `python -m` it begins with this import.
+    return Path(sys.argv[0]).stem in ("meshlab-willmore", "-m")
+
+
 def _register_where_possible() -> None:
     """Register the filters, or warn that PyMeshLab's system libraries are missing."""
     try:
@@ -76,9 +82,12 @@ def _register_where_possible() -> None:
     except ImportError as error:
         if error.__cause__ is None:
             raise
-        # The command line says it in its own way. As `python -m` it begins with this import.
-        if Path(sys.argv[0]).stem not in ("meshlab-willmore", "-m"):
+        # The command line says it in its own way.
+        if not _is_command_line():
             warnings.warn(f"{error}. Until then only the functions on arrays work.", stacklevel=3)
 
 
 _register_where_possible()
+# Most of what the first filter would wait for. Many commands do without.
+if not _is_command_line():
+    quick_start.import_numba()

@@ -23,6 +23,7 @@ INSTALLERS = {
     "dnf": "dnf install mesa-libGL libglvnd-opengl",
 }
 REINSTALL = f"{Path(sys.executable).name} -m pip install --force-reinstall meshlab-willmore"
+WARM_UP = "meshlab-willmore warmup"
 
 # Meshes and textures pass through the folder for temporary files.
 ROOM_WANTED = 200 * 2**20
@@ -171,9 +172,20 @@ def cache() -> Finding:
     if problem:
         cure = f"export NUMBA_CACHE_DIR={Path.home() / '.cache' / 'numba'}"
         return Finding("Numba's cache", False, f"{folder}: {problem}", cure)
-    compiled = answer.values["compiled"]
-    state = f"{compiled} compiled" if compiled else "nothing in it yet: the first run compiles"
-    return Finding("Numba's cache", True, f"{folder} ({state})")
+    return Finding("Numba's cache", True, f"{folder} ({_warmth(**answer.values)})")
+
+
+def _warmth(missing: int | None, steps: int, **_: object) -> str:
+    """How much of what the filters need is compiled; None: that can't be told."""
+    if missing is None:
+        return f"{WARM_UP!r} compiles all that is not in it"
+    if not missing:
+        return "all is compiled"
+    if missing == steps:
+        done = "nothing"
+    else:
+        done = f"{steps - missing} of {steps} ways to flip and measure"
+    return f"{done} compiled yet; the rest at its first use, or now with: {WARM_UP}"
 
 
 def temporary() -> Finding:

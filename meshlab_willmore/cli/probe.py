@@ -47,13 +47,12 @@ count(2)
 answer = {"layer": numba.threading_layer(), "threads": numba.get_num_threads()}
 """
 CACHE = """
-import pathlib
-from meshlab_willmore.search import entries
-folder = getattr(entries.greedy_virtual.stats, "cache_path", None)
-answer = {
-    "folder": folder,
-    "compiled": len(list(pathlib.Path(folder).glob("*.nbi"))) if folder else 0,
-}
+from meshlab_willmore import warmup
+from meshlab_willmore.mesh import compiling, jit
+folder = jit.cache_folder()
+answer = {"folder": folder, "steps": len(warmup.steps()), "missing": None}
+if folder and compiling.CAN_TELL:
+    answer["missing"] = len(warmup.missing())
 """
 
 

@@ -5,11 +5,12 @@ cut each other. Cuts that the mesh has already may stay or go: their number neve
 """
 
 import numpy as np
+from numba.extending import overload
 
 from ..mesh.halfedge import NONE, apex
 from ..mesh.jit import jit
 from .faces import count_as_cut, cut_exactly, face_of, from_corner, match
-from .space import after, faces_at, next_leaf
+from .space import after, faces_at, is_none, next_leaf
 
 
 @jit
@@ -88,6 +89,15 @@ def _first_cut(mesh, space, new, f, other):
 
 
 @jit
+def _blocker(mesh, space, h):
+    f, g = np.int64(h // 3), np.int64(mesh.twin[h] // 3)
+    one, other = _new_faces(mesh, h)
+    if _are_refused(one, other, space.area_scale):
+        return f
+    found = _first_cut(mesh, space, one, f, g)
+    return found if found != NONE else _first_cut(mesh, space, other, g, f)
+
+
 def blocker(mesh, space, h):
     """Return a face that the flip of `h` would make a new face cut.
 
@@ -95,7 +105,7 @@ def blocker(mesh, space, h):
     ----------
     mesh : Mesh
     space : Space
-        Active, and up to date with the mesh.
+        Up to date with the mesh. One that is not active refuses nothing.
     h : int
         Half-edge that `can_flip` allows.
 
@@ -105,18 +115,18 @@ def blocker(mesh, space, h):
         `NONE` if there is none: the flip may be made. The face of `h` if the two new faces would
         cut each other. As long as this face and the two at `h` stay, the answer stays.
     """
-    f, g = np.int64(h // 3), np.int64(mesh.twin[h] // 3)
-    one, other = _new_faces(mesh, h)
-    if _are_refused(one, other, space.area_scale):
-        return f
-    found = _first_cut(mesh, space, one, f, g)
-    return found if found != NONE else _first_cut(mesh, space, other, g, f)
+    return _blocker(mesh, space, h) if space.active else NONE
+
+
+@overload(blocker)
+def _compiled_blocker(mesh, space, h):
+    return (lambda mesh, space, h: NONE) if is_none(space) else blocker
 
 
 @jit
 def would_cut(mesh, space, h):
     """Tell whether the flip of `h` is refused, as `blocker` does; never if nothing is active."""
-    return space.active and blocker(mesh, space, h) != NONE
+    return blocker(mesh, space, h) != NONE
 
 
 @jit

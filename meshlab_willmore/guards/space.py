@@ -11,6 +11,8 @@ walked without a stack.
 from typing import NamedTuple
 
 import numpy as np
+from numba import types
+from numba.extending import overload
 
 from ..mesh.halfedge import NONE
 from ..mesh.jit import jit
@@ -44,10 +46,36 @@ class Space(NamedTuple):
     leaf: np.ndarray
 
 
+class NoSpace(NamedTuple):
+    """The space that refuses nothing, as a type of its own.
+
+    Kernels that get it are compiled without the tests for cuts, which are more than all the rest.
+
+    Attributes
+    ----------
+    active : bool
+        False.
+    order : (0,) int32
+    """
+
+    active: bool
+    order: np.ndarray
+
+
 def no_space():
-    """Return the space that refuses nothing."""
+    """Return the space that refuses nothing, for kernels that are compiled for both."""
     empty = np.empty(0, np.int32)
     return Space(False, 1.0, np.empty((0, SIDES)), empty, empty)
+
+
+def without(space):
+    """Return the space for kernels that are compiled anew for each kind: `NoSpace` if inactive."""
+    return space if space.active else NoSpace(False, np.empty(0, np.int32))
+
+
+def is_none(kind):
+    """Tell whether a Numba type is that of `NoSpace`."""
+    return isinstance(kind, types.NamedTuple) and kind.instance_class is NoSpace
 
 
 def space_of(mesh, exponent=0):
@@ -79,6 +107,8 @@ def space_of(mesh, exponent=0):
 
 def renewed(space, mesh):
     """Return the index of a mesh that flips have made of the one that `space` belongs to."""
+    if isinstance(space, NoSpace):
+        return space
     other = space._replace(box=np.empty_like(space.box))
     if space.active:
         _fill(mesh, other)
@@ -215,12 +245,16 @@ def _rebound(mesh, space, f):
         changed = _bound_node(space, node)
 
 
-@jit
 def follow(mesh, space, h):
     """Bring the index up to date, in place, after the flip of `h` (or several in one quad)."""
     if space.active:
         _rebound(mesh, space, h // 3)
         _rebound(mesh, space, mesh.twin[h] // 3)
+
+
+@overload(follow)
+def _compiled_follow(mesh, space, h):
+    return (lambda mesh, space, h: None) if is_none(space) else follow
 
 
 @jit

@@ -7,14 +7,27 @@ fixes the parameter is (see `meshlab_willmore.search.entries`). ``inlined`` is f
 in loops that the compiler should turn into vector instructions, which a call in the loop prevents.
 """
 
+from collections.abc import Callable
+
 import numpy as np
-from numba import njit
+
+from .. import quick_start
+
+quick_start.import_numba()
+from numba import njit  # noqa: E402
+
+from . import compiling  # noqa: E402, F401 (it tells of what is compiled)
+
+quick_start.load_numba()
 
 # Division by zero gives inf or nan, as in NumPy: kernels test for finite results where it matters.
 # Kernels touch no Python object, so other threads may run meanwhile.
 generic = njit(error_model="numpy", nogil=True)
 inlined = njit(error_model="numpy", forceinline=True)
 _cached = njit(cache=True, error_model="numpy", nogil=True)
+
+# All that `jit` has returned in this process.
+KERNELS: list[Callable] = []
 
 
 def jit(function):
@@ -26,9 +39,11 @@ def jit(function):
     is code, and others could put theirs there.
     """
     try:
-        return _cached(function)
+        kernel = _cached(function)
     except RuntimeError:
-        return generic(function)
+        kernel = generic(function)
+    KERNELS.append(kernel)
+    return kernel
 
 
 @inlined
@@ -39,3 +54,15 @@ def at(index):
     it is takes time at each access, and keeps loops from becoming vector instructions.
     """
     return np.uint64(index)
+
+
+def cache_folder():
+    """Return the folder where kernels are kept.
+
+    Returns
+    -------
+    str or None
+        The one of the first kernel (each source folder has its own, side by side). None: there is
+        no cache, or the compiler is switched off.
+    """
+    return getattr(getattr(KERNELS[0], "stats", None), "cache_path", None)

@@ -46,7 +46,7 @@ def apply(ms: MeshSet, filter_: Filter, values: dict[str, Any]) -> dict[str, Any
         if verbosity.all or verbosity.parameters:
             print(f"\nApplying filter {filter_.name} with the following parameters:\n{values}\n")
         try:
-            returned, log = filter_.run(ms, values)
+            returned, log = _run(ms, filter_, values)
         except Exception as error:
             # Whoever keeps the exception, as an interactive session does, would hold the mesh.
             traceback.clear_frames(error.__traceback__)
@@ -57,3 +57,12 @@ def apply(ms: MeshSet, filter_: Filter, values: dict[str, Any]) -> dict[str, Any
             print(f"LOG: 2 {log}\nLOG: 2 {filter_.name} applied!    [ 100% ]", file=sys.stderr)
             print()
         return returned
+
+
+def _run(ms: MeshSet, filter_: Filter, values: dict[str, Any]) -> tuple[dict[str, Any], str]:
+    """Run the filter; on a terminal, say why the first time takes so long."""
+    from ..mesh.compiling import announced
+
+    silent = native.verbosity(ms).all is False
+    with announced(f"what {filter_.meshlab_name!r} needs", silent=silent):
+        return filter_.run(ms, values)

@@ -180,9 +180,9 @@ def _script(ms: MeshSet, path: Path) -> bytes:
 
 
 class Verbosity(NamedTuple):
-    """What a set prints: `all` of a filter's doings, or its `parameters` only."""
+    """What a set prints: `all` of a filter's doings (None: nobody said), or `parameters` only."""
 
-    all: bool = False
+    all: bool | None = None
     parameters: bool = False
 
 
@@ -211,7 +211,7 @@ def _quiet(ms: MeshSet) -> Iterator[None]:
     try:
         yield
     finally:
-        _set_verbosity(ms, before.all)
+        _set_verbosity(ms, bool(before.all))
         _set_parameter_verbosity(ms, before.parameters)
 
 

@@ -499,7 +499,8 @@ def run(kernel, mesh, rules, space=None, threads=None):
     Progress
         Its state is `CONVERGED` or `STOPPED`.
     """
-    board = board_of(mesh, rules, spaces.no_space() if space is None else space)
+    space = spaces.without(spaces.no_space() if space is None else space)
+    board = board_of(mesh, rules, space)
     progress = Progress(len(mesh.origin), 0, 0.0, WORKING)
     touched, refused, candidates = len(board.touched), 0, 0
     with crew(threads) as share:

@@ -150,22 +150,29 @@ def test_a_compiler_that_is_switched_off(monkeypatch):
 
 def test_no_folder_for_the_cache(monkeypatch):
     monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
-    answering(monkeypatch, {"folder": None, "compiled": 0})
+    answering(monkeypatch, {"folder": None, "steps": 9, "missing": None})
     finding = checks.cache()
     assert not finding.ok
     assert finding.cure.startswith("export NUMBA_CACHE_DIR=")
 
 
-def test_a_cache_folder_tells_whether_anything_is_in_it(monkeypatch, tmp_path):
+def test_a_cache_folder_tells_what_is_compiled(monkeypatch, tmp_path):
     monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
-    answering(monkeypatch, {"folder": str(tmp_path / "later"), "compiled": 0})
-    assert checks.cache().text.endswith("(nothing in it yet: the first run compiles)")
-    answering(monkeypatch, {"folder": str(tmp_path), "compiled": 3})
-    assert checks.cache() == Finding("Numba's cache", True, f"{tmp_path} (3 compiled)")
+
+    def found(folder, missing):
+        answering(monkeypatch, {"folder": str(folder), "steps": 9, "missing": missing})
+        return checks.cache()
+
+    later = tmp_path / "later"
+    now = "the rest at its first use, or now with: meshlab-willmore warmup"
+    assert found(later, 9).text == f"{later} (nothing compiled yet; {now})"
+    text = f"{tmp_path} (7 of 9 ways to flip and measure compiled yet; {now})"
+    assert found(tmp_path, 2) == Finding("Numba's cache", True, text)
+    assert found(tmp_path, 0) == Finding("Numba's cache", True, f"{tmp_path} (all is compiled)")
+    assert "meshlab-willmore warmup" in found(tmp_path, None).text
     file = tmp_path / "file"
     file.touch()
-    answering(monkeypatch, {"folder": str(file), "compiled": 3})
-    assert not checks.cache().ok
+    assert not found(file, 0).ok
 
 
 # The rest

@@ -13,7 +13,7 @@ from click.testing import CliRunner
 import meshlab_willmore
 from meshlab_willmore.cli import main
 
-COMMANDS = ["convert", "demo", "doctor", "filters", "flip", "lint", "measure", "run"]
+COMMANDS = ["convert", "demo", "doctor", "filters", "flip", "lint", "measure", "run", "warmup"]
 STORY = "meshlab_willmore.demo.story.tell"
 WHOLE_RUN = """
 import sys
@@ -24,7 +24,9 @@ main(["demo", "--output", sys.argv[1]])
 """
 LIGHT_RUN = """
 import sys
+sys.argv[0] = "/usr/bin/meshlab-willmore"
 import meshlab_willmore
+assert "numba" not in sys.modules
 package = set(sys.modules)
 from meshlab_willmore.cli import main
 for name in sys.argv[1:]:

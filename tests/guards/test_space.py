@@ -8,6 +8,7 @@ from meshlab_willmore.guards import space as spaces
 from meshlab_willmore.measure import self_intersections
 from meshlab_willmore.mesh.build import build, faces_of
 from meshlab_willmore.mesh.halfedge import NONE, can_flip, flip
+from meshlab_willmore.mesh.jit import jit
 from meshlab_willmore.mesh.validate import to_unit_scale
 from tests import meshes, solids
 from tests.guards import brute
@@ -184,4 +185,39 @@ def test_without_a_guard_nothing_is_refused():
         if can_flip(mesh, h):
             assert not cuts.would_cut(mesh, space, h)
     spaces.follow(mesh, space, 0)
+    assert cuts.blocker(mesh, space, 0) == NONE
     assert not spaces.space_of(build(np.empty((0, 3)), np.empty((0, 3), np.int32))).active
+
+
+@jit
+def _flipped(mesh, space, h):
+    """What a search asks and does."""
+    refused = cuts.would_cut(mesh, space, h) or cuts.blocker(mesh, space, h) != NONE
+    if not refused:
+        flip(mesh, h)
+        spaces.follow(mesh, space, h)
+    return refused
+
+
+@pytest.mark.parametrize("kind", [spaces.no_space, lambda: spaces.without(spaces.no_space())])
+def test_kernels_refuse_nothing_without_a_guard(kind):
+    """Of the second kind they could not even be compiled with the guard: it lacks the arrays."""
+    mesh, _ = unit_mesh(*meshes.crumpled(4))
+    space = kind()
+    assert spaces.renewed(space, mesh).active is False
+    h = next(h for h in range(len(mesh.origin)) if can_flip(mesh, h))
+    before = mesh.origin.copy()
+    assert not _flipped(mesh, space, h)
+    assert (mesh.origin != before).any()
+
+
+def test_an_active_space_stays_as_it_is_and_is_followed_in_kernels():
+    mesh, _ = unit_mesh(*meshes.bumpy_sphere(60))
+    space = spaces.space_of(mesh)
+    assert spaces.without(space) is space
+    before = space.box.copy()
+    for h in range(len(mesh.origin)):
+        if can_flip(mesh, h):
+            _flipped(mesh, space, h)
+    assert (space.box != before).any()
+    np.testing.assert_array_equal(space.box, spaces.renewed(space, mesh).box)

@@ -1,0 +1,42 @@
+"""`meshlab-willmore warmup`: everything compiled ahead."""
+
+from __future__ import annotations
+
+import sys
+
+import click
+
+from .columns import counted
+from .errors import debug_option
+
+EXAMPLES = """\b
+Examples:
+  meshlab-willmore warmup
+  meshlab-willmore warmup --debug
+"""
+
+
+def is_terminal() -> bool:
+    """Whether somebody looks on."""
+    return sys.stderr.isatty()
+
+
+@click.command("warmup", short_help="Compile everything ahead, once.", epilog=EXAMPLES)
+@debug_option
+def command() -> None:
+    """Compile all that the filters need, so that no later run has to wait for that.
+
+    Numba keeps the machine code in a folder of the user, or in NUMBA_CACHE_DIR, which then has to
+    be set for later runs too. It takes some minutes the first time, and seconds when all is there.
+    'meshlab-willmore doctor' tells whether it is done.
+    """
+    from ..warmup import warm_up
+
+    def say(line: str) -> None:
+        if is_terminal():
+            click.echo(line, err=True)
+
+    say("Compiling what is not in the cache yet; this takes some minutes ...")
+    done = warm_up(say)
+    what = f"{counted(done.compiled, 'kernel')} compiled" if done.compiled else "all is there"
+    click.echo(f"{what}, in {done.seconds:.1f} s: {done.folder}")

@@ -1,0 +1,157 @@
+"""Everything compiled ahead: each energy by each search, every guard and measure, on a tiny mesh.
+
+What there is to compile is not listed here, but asked of the dictionaries that the public functions
+choose from, and it is compiled by calling these functions. So a new energy or search is included.
+"""
+
+from __future__ import annotations
+
+import itertools
+import time
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import Any, NamedTuple
+
+import numpy as np
+from numba import config
+from numpy.typing import NDArray
+
+from . import measure
+from .mesh import compiling
+from .mesh.jit import cache_folder
+from .mesh.normals import vertex_normals
+from .optimize import PLACES, SEARCHES, optimize_flips
+from .search.kernels import KERNELS
+
+VIRTUAL = "virtual willmore"
+_PLACE = 0.3
+_ROWS = 7
+_HEIGHT = 0.4
+_FEATURE = 30.0
+
+
+class Step(NamedTuple):
+    """Something to call, and its name."""
+
+    name: str
+    run: Callable[[], object]
+
+
+class Warmed(NamedTuple):
+    """What was done: kernels compiled, seconds for that and for all, and where they are kept."""
+
+    compiled: int
+    compiling_seconds: float
+    seconds: float
+    folder: str
+
+
+def steps() -> list[Step]:
+    """All that a filter or a function of this package may compile; the default comes first."""
+    return [
+        *(Step(name, partial(optimize_flips, *_patch(), **given)) for name, given in _flips()),
+        *(
+            Step(f"{function.__name__.replace('_', ' ')}", partial(function, *_patch()))
+            for function in (
+                measure.measures,
+                measure.willmore_energy,
+                measure.vertex_willmore_energy,
+                measure.intersection_angles,
+                measure.triangle_shapes,
+                measure.self_intersections,
+            )
+        ),
+        Step("normals", lambda: vertex_normals(*_patch(), np.zeros((_ROWS**2, 3)))),
+    ]
+
+
+def _flips() -> Iterator[tuple[str, dict[str, Any]]]:
+    """Name and options of each kind of flips."""
+    # One sweep compiles as much as many.
+    few: dict[str, Any] = {"sweeps": 1}
+    places: list[str | float] = [*PLACES, _PLACE]
+    for search, energy in itertools.product(SEARCHES, KERNELS):
+        given = {**few, "search": search, "energy": energy}
+        yield f"{search}, {energy}", given
+        yield f"{search}, {energy}, self-intersections", {**given, "checkintersections": True}
+    for search, place in itertools.product(SEARCHES, places):
+        given = {**few, "search": search, "energy": VIRTUAL, "virtualpoint": place}
+        yield f"{search}, virtual points {place}", given
+        yield (
+            f"{search}, virtual points {place}, self-intersections",
+            {**given, "checkintersections": True},
+        )
+    _, faces = _patch()
+    yield (
+        "features, selections, locked edges",
+        {
+            "featuredeg": _FEATURE,
+            "selected_faces": np.ones(len(faces), bool),
+            "locked_edges": faces[:1, :2],
+        },
+    )
+
+
+def _patch() -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    """A rough patch with bad diagonals, on which every search finds something to do."""
+    x, y = (line.ravel() for line in np.mgrid[:_ROWS, :_ROWS])
+    height = np.random.default_rng(0).uniform(0.0, _HEIGHT, x.size)
+    low = np.arange(x.size).reshape(_ROWS, _ROWS)
+    a, b, c, d = (
+        corner.ravel() for corner in (low[:-1, :-1], low[1:, :-1], low[1:, 1:], low[:-1, 1:])
+    )
+    faces = np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+    return np.stack([x, y, height], 1).astype(np.float64), faces.astype(np.int32)
+
+
+def warm_up(say: Callable[[str], None]) -> Warmed:
+    """Compile what is not in Numba's cache yet; `say` gets a line for what took its time.
+
+    Raises
+    ------
+    RuntimeError
+        Numba's compiler is switched off, or it finds no folder that can be written.
+    OSError
+        The cache can't be written.
+    """
+    folder = _folder()
+    start = time.perf_counter()
+    found = []
+    with compiling.announced("", silent=True):
+        for step in steps():
+            with compiling.counted() as compiled:
+                try:
+                    step.run()
+                except OSError as error:
+                    raise OSError(f"Numba's cache can't be written in {folder}: {error}") from error
+            if compiled:
+                say(f"{step.name}: compiled in {sum(c.seconds for c in compiled):.1f} s")
+            found += compiled
+    seconds = time.perf_counter() - start
+    return Warmed(len(found), sum(c.seconds for c in found), seconds, folder)
+
+
+def missing() -> list[str]:
+    """Names of the steps that would compile something; nothing is compiled."""
+    return [step.name for step in steps() if _would_compile(step)]
+
+
+def _would_compile(step: Step) -> bool:
+    try:
+        with compiling.forbidden():
+            step.run()
+    except compiling.NotCompiledError:
+        return True
+    return False
+
+
+def _folder() -> str:
+    if config.DISABLE_JIT:  # type: ignore[attr-defined]
+        raise RuntimeError("NUMBA_DISABLE_JIT is set: the compiler is switched off")
+    folder = cache_folder()
+    if not folder:
+        raise RuntimeError(
+            "Numba finds no folder that it can write its cache to; "
+            "set NUMBA_CACHE_DIR to one, for this command and for later runs"
+        )
+    return str(folder)

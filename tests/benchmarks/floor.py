@@ -1,0 +1,146 @@
+"""The scoring pass of the greedy search in rounds, measured against its own arithmetic.
+
+Run by hand, from the top of the repository, on a machine that does nothing else:
+
+    python -m tests.benchmarks.floor
+
+The floor is that arithmetic alone, on the numbers of the same edges, gathered beforehand and one
+behind the other in memory: no connectivity, nothing looked up, nothing written but the results. On
+one thread and on all of them; medians of wall-clock time, in turns.
+"""
+
+import argparse
+import functools
+import sys
+from typing import NamedTuple
+
+import numba
+import numpy as np
+
+from meshlab_willmore import optimize
+from meshlab_willmore.energy import virtual, willmore
+from meshlab_willmore.energy.angles import radians
+from meshlab_willmore.energy.kinds import KINDS
+from meshlab_willmore.guards import space as spaces
+from meshlab_willmore.mesh.build import build
+from meshlab_willmore.mesh.halfedge import is_free
+from meshlab_willmore.mesh.jit import jit
+from meshlab_willmore.mesh.validate import check_mesh, to_unit_scale
+from meshlab_willmore.search import entries
+from meshlab_willmore.search.board import board_of
+from meshlab_willmore.search.lanes import (
+    JUDGE,
+    LANES,
+    RANKING,
+    drop_at,
+    empty_lanes,
+    fill,
+    find_drops,
+    is_positive,
+)
+from meshlab_willmore.search.workers import crew
+from tests import meshes
+from tests.benchmarks import machine
+from tests.studies.models import print_table
+
+ENERGY = "virtual willmore"
+NANO = 1e-9
+
+
+class Ready(NamedTuple):
+    """Numbers of whole blocks of edges, (blocks, rows), and room for the results (edges, 2)."""
+
+    rows: np.ndarray
+    results: np.ndarray
+
+
+@jit
+def gather(mesh, edges, rows):
+    """Write what the flips of `edges`, whole blocks of them, look at into `rows`."""
+    for place in range(len(edges)):
+        fill(rows[place // LANES], place % LANES, mesh, edges[place])
+
+
+@jit
+def compute(ready, start, stop):
+    """Find the cost reductions of the edges from `start` up to `stop`, which begins a block."""
+    for block in range(start // LANES, stop // LANES):
+        rows = ready.rows[block]
+        find_drops(rows, virtual.drop, RANKING)
+        find_drops(rows, willmore.drop, JUDGE)
+        for lane in range(LANES):
+            angles = drop_at(rows, RANKING, lane)
+            if is_positive(angles):
+                result = ready.results[block * LANES + lane]
+                result[0] = 2.0 * radians(angles)
+                result[1] = 2.0 * radians(drop_at(rows, JUDGE, lane))
+
+
+@jit
+def free_edges(mesh, edges):
+    """Return those of `edges` that may be flipped at all."""
+    return np.array([h for h in edges if is_free(mesh, h)], np.int32)
+
+
+def contenders(board, ready, edges):
+    """The pass and its floor, on one thread and on all."""
+    threads = {"one thread": 1, f"{numba.config.NUMBA_NUM_THREADS} threads": None}
+    found = {}
+    for name, count in threads.items():
+        found["pass", name] = functools.partial(
+            shared, entries.score_virtual, board, len(board.touched), count
+        )
+        found["floor", name] = functools.partial(shared, compute, ready, len(edges), count)
+    return found
+
+
+def shared(kernel, task, count, threads):
+    """Seconds of the work on so many threads, which are there already."""
+    with crew(threads) as share:
+        return machine.seconds_of(functools.partial(share, kernel, task, count))
+
+
+def prepared(points):
+    """The board of the mesh, the same edges ready for the arithmetic, and these edges."""
+    vertices, faces = check_mesh(*meshes.torus(points, 0.3, 8))
+    mesh = build(to_unit_scale(vertices, faces)[0], faces)
+    rules = optimize._suited(optimize._rules(True, 90.0, None), KINDS[ENERGY], mesh)
+    board = board_of(mesh, rules, spaces.no_space())
+    edges = free_edges(mesh, board.touched)
+    edges = edges[: len(edges) // LANES * LANES]
+    ready = Ready(np.zeros((len(edges) // LANES, len(empty_lanes()))), np.zeros((len(edges), 2)))
+    gather(mesh, edges, ready.rows)
+    return board, ready, edges
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.floor")
+    parser.add_argument("--points", type=int, default=200_000, help="of the torus")
+    parser.add_argument("--rounds", type=int, default=9)
+    options = parser.parse_args(arguments)
+    print("\n".join(machine.description()))
+    board, ready, edges = prepared(options.points)
+    taking_turns = contenders(board, ready, edges)
+    # Once, so that nothing is compiled or loaded later.
+    machine.interleaved(taking_turns, 1)
+    medians = {
+        key: figures[0]
+        for key, figures in machine.interleaved(taking_turns, options.rounds).items()
+    }
+    print(f"\n{len(board.touched)} edges, n = {options.rounds}\n")
+    print_table(["", "floor, ns an edge", "pass, ns an edge", "share"], rows(medians, board, edges))
+    one, every = (medians["pass", name] for what, name in medians if what == "pass")
+    print(f"\nThe pass is {one / every:.2f} times as fast on all threads as on one.")
+
+
+def rows(medians, board, edges):
+    """A line for each number of threads."""
+    for what, name in medians:
+        if what == "floor":
+            floor = medians[what, name] / len(edges) / NANO
+            whole = medians["pass", name] / len(board.touched) / NANO
+            yield [name, f"{floor:.1f}", f"{whole:.1f}", f"{floor / whole:.2f}"]
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

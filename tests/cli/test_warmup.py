@@ -1,0 +1,43 @@
+"""`warmup`: what it says, and how it fails."""
+
+from meshlab_willmore import warmup
+
+from .conftest import call
+
+FOLDER = "/the/folder"
+
+
+def ending(monkeypatch, compiled):
+    def warm_up(say):
+        say("one: compiled in 1.0 s")
+        return warmup.Warmed(compiled, 1.0, 2.04, FOLDER)
+
+    monkeypatch.setattr(warmup, "warm_up", warm_up)
+
+
+def test_what_was_done_is_told_in_a_line(monkeypatch):
+    for compiled, text in (
+        (0, "all is there"),
+        (1, "1 kernel compiled"),
+        (3, "3 kernels compiled"),
+    ):
+        ending(monkeypatch, compiled)
+        result = call("warmup")
+        assert (result.exit_code, result.stderr) == (0, "")
+        assert result.stdout == f"{text}, in 2.0 s: {FOLDER}\n"
+
+
+def test_a_terminal_is_told_what_is_compiled(monkeypatch):
+    ending(monkeypatch, 1)
+    monkeypatch.setattr("meshlab_willmore.cli.warmup.is_terminal", lambda: True)
+    result = call("warmup")
+    assert result.stderr.splitlines()[1:] == ["one: compiled in 1.0 s"]
+
+
+def test_an_error_is_one_line(monkeypatch):
+    monkeypatch.setattr(warmup, "cache_folder", lambda: None)
+    monkeypatch.setattr(warmup.config, "DISABLE_JIT", 0)
+    result = call("warmup")
+    assert result.exit_code == 1
+    assert result.stderr.startswith("Error: Numba finds no folder that it can write its cache to")
+    assert result.stderr.count("\n") == 1

@@ -1,0 +1,53 @@
+"""Which kernels Python code calls.
+
+A process that finds all in the cache loads only these: what they call is in their machine code.
+"""
+
+import importlib
+import pkgutil
+import types
+
+import meshlab_willmore
+from meshlab_willmore.mesh import jit
+from meshlab_willmore.search.kernels import KERNELS, PLACED_KERNELS
+
+
+def called_from_python():
+    """A dictionary of the kernels that plain functions name, and those of the searches, by name."""
+    cached = {id(kernel): kernel for kernel in jit.KERNELS}
+    named = [value for function in _plain_functions() for value in _named_in(function)]
+    listed = [kernel for row in (*KERNELS.values(), *PLACED_KERNELS.values()) for kernel in row]
+    used = {id(value) for value in [*named, *listed]}
+    return {_name(kernel): kernel for key, kernel in cached.items() if key in used}
+
+
+def _name(kernel):
+    return f"{kernel.py_func.__module__}.{kernel.py_func.__name__}"
+
+
+def _plain_functions():
+    """All functions of the package's modules that are not compiled."""
+    for found in pkgutil.walk_packages(meshlab_willmore.__path__, f"{meshlab_willmore.__name__}."):
+        if found.name.endswith("__main__"):
+            continue
+        module = importlib.import_module(found.name)
+        for name, value in vars(module).items():
+            is_ours = isinstance(value, types.FunctionType) and value.__module__ == module.__name__
+            # Beside some there is a compiled version, which kernels call.
+            if is_ours and f"_compiled_{name}" not in vars(module):
+                yield value
+
+
+def _named_in(function):
+    """What the names in a function stand for, also those in modules that it names."""
+    names = {name for code in _codes(function.__code__) for name in code.co_names}
+    values = [function.__globals__.get(name) for name in names]
+    modules = [value for value in values if isinstance(value, types.ModuleType)]
+    return values + [vars(module).get(name) for module in modules for name in names]
+
+
+def _codes(code):
+    yield code
+    for constant in code.co_consts:
+        if isinstance(constant, types.CodeType):
+            yield from _codes(constant)

@@ -1,0 +1,141 @@
+"""Everything compiled ahead: nothing is left out."""
+
+import inspect
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from meshlab_willmore import warmup
+from meshlab_willmore.optimize import PLACES, SEARCHES, optimize_flips
+from meshlab_willmore.search.kernels import KERNELS
+
+ROOT = Path(__file__).parents[1]
+# All that a process has to compile, on a slow machine.
+LONG = 1200
+WARM = """
+from meshlab_willmore import warmup
+done = warmup.warm_up(print)
+print(done.compiled, warmup.warm_up(print).compiled)
+"""
+LOADED = """
+from meshlab_willmore import warmup
+assert warmup.missing() == [], warmup.missing()
+from tests.kernels_in_use import called_from_python
+kernels = called_from_python()
+assert len(kernels) > 40, len(kernels)
+print(sorted(name for name, kernel in kernels.items() if not kernel.signatures))
+"""
+USED = """
+import numpy as np, pymeshlab, meshlab_willmore
+from meshlab_willmore import measure, optimize_flips
+from meshlab_willmore.compare import figures
+from meshlab_willmore.mesh import compiling
+from tests import meshes
+FLIP = "meshing_edge_flip_by_willmore_optimization"
+with compiling.forbidden():
+    for options in (
+        {}, {"featuredeg": 30}, {"selection": False}, {"energy": "area", "search": "thorough"},
+        {"virtualpoint": "0.1", "search": "variable depth"}, {"checkintersections": True},
+        {"monotone": False, "foldangle": 180}, {"search": "annealing", "sweeps": 3},
+    ):
+        ms = pymeshlab.MeshSet()
+        ms.create_cube()
+        ms.meshing_poly_to_tri()
+        ms.meshing_surface_subdivision_midpoint(threshold=pymeshlab.PercentageValue(0))
+        ms.apply_coord_two_steps_smoothing()
+        ms.compute_selection_by_condition_per_face(condselect="x0 < 0.2")
+        ms.compute_texcoord_parametrization_triangle_trivial_per_wedge()
+        ms.apply_filter(FLIP, **options)
+        ms.get_willmore_measures()
+        ms.compute_scalar_by_willmore_energy_per_vertex()
+    vertices, faces = meshes.moebius_band()
+    shared = np.asfortranarray(vertices, np.float32)
+    shared.flags.writeable = False
+    optimize_flips(shared, faces.astype(np.uint16), locked_edges=faces[:0, :2].astype(np.int64))
+    optimize_flips(np.zeros((0, 3)), np.zeros((0, 3), int))
+    measure.self_intersections(vertices, np.asfortranarray(faces))
+    figures.figures(ms, ms.current_mesh().face_matrix(), None)
+print("[]")
+"""
+
+
+def printed(program):
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout.splitlines()
+
+
+@pytest.mark.heavy
+@pytest.mark.timeout(LONG)
+def test_after_it_no_process_compiles_anything():
+    first, second = printed(WARM)[-1].split()
+    assert int(first) >= 0
+    assert int(second) == 0
+    assert printed(LOADED) == ["[]"]
+    assert printed(USED) == ["[]"]
+
+
+def test_every_search_of_every_energy_is_a_step_with_the_default_first():
+    names = [step.name for step in warmup.steps()]
+    given = inspect.signature(optimize_flips).parameters
+    assert names[0] == f"{given['search'].default}, {given['energy'].default}"
+    assert len(set(names)) == len(names)
+    for search in SEARCHES:
+        assert {f"{search}, {energy}" for energy in KERNELS} < set(names)
+        assert {f"{search}, virtual points {place}" for place in PLACES} < set(names)
+
+
+def test_the_mesh_has_flips_to_make():
+    assert warmup.steps()[0].run().flips > 0
+
+
+@pytest.mark.heavy
+def test_what_would_be_compiled_is_named(monkeypatch):
+    from meshlab_willmore.mesh.jit import generic
+
+    def kernel(x):
+        return x
+
+    kernel.__module__ = "meshlab_willmore.of_a_test"
+    compiled = generic(kernel)
+    monkeypatch.setattr(
+        warmup,
+        "steps",
+        lambda: [warmup.Step("new", lambda: compiled(1)), warmup.Step("none", lambda: None)],
+    )
+    assert warmup.missing() == ["new"]
+    assert not compiled.signatures
+    lines = []
+    done = warmup.warm_up(lines.append)
+    assert (done.compiled, len(lines)) == (1, 1)
+    assert lines[0].startswith("new: compiled in ")
+    assert 0.0 < done.compiling_seconds <= done.seconds
+    assert warmup.missing() == []
+    assert warmup.warm_up(lines.append).compiled == 0
+    assert len(lines) == 1
+
+
+def test_without_a_compiler_or_a_cache_there_is_an_error(monkeypatch):
+    monkeypatch.setattr(warmup, "steps", list)
+    monkeypatch.setattr(warmup.config, "DISABLE_JIT", 1)
+    with pytest.raises(RuntimeError, match="NUMBA_DISABLE_JIT is set"):
+        warmup.warm_up(print)
+    monkeypatch.setattr(warmup.config, "DISABLE_JIT", 0)
+    monkeypatch.setattr(warmup, "cache_folder", lambda: None)
+    with pytest.raises(RuntimeError, match="set NUMBA_CACHE_DIR"):
+        warmup.warm_up(print)
+
+
+def test_a_full_disk_is_told_with_the_folder(monkeypatch):
+    def fail():
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(warmup.config, "DISABLE_JIT", 0)
+    monkeypatch.setattr(warmup, "cache_folder", lambda: "/the/folder")
+    monkeypatch.setattr(warmup, "steps", lambda: [warmup.Step("one", fail)])
+    with pytest.raises(OSError, match="can't be written in /the/folder: .*No space left"):
+        warmup.warm_up(print)

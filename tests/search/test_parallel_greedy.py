@@ -282,13 +282,13 @@ def test_nothing_is_left_to_gain_and_the_gain_is_the_drop(energy, name):
 def test_rounds_end_as_low_as_the_queue(energy, model):
     vertices, faces = meshes.torus(*model)
     total = KINDS[energy].total
-    ends_at = [
+    in_rounds, by_queue = [
         total(build(vertices, optimize_flips(vertices, faces, energy=energy, search=search).faces))
         for search in ("parallel greedy", "greedy")
     ]
     # In the absolute Gaussian curvature local minima are many.
     slack = 0.03 if KINDS[energy].is_wide else 0.01
-    assert ends_at[0] == pytest.approx(ends_at[1], rel=slack)
+    assert in_rounds <= (1.0 + slack) * by_queue
 
 
 @pytest.mark.parametrize("energy", BOTH_WILLMORE)

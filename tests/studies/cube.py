@@ -126,11 +126,11 @@ def described(vertices, found: Found, column):
 
 
 def where_it_changes():
-    """Rows for the pushes at which the result of the default flips changes."""
+    """Rows for the pushes at which the result of greedy flips changes."""
     last = None
     for push in np.arange(STEP, DEEPEST - STEP / 2, STEP):
         vertices, faces = cube(push)
-        result = optimize_flips(vertices, faces)
+        result = optimize_flips(vertices, faces, search="greedy")
         valences = np.bincount(result.faces.ravel())[CORNERS:]
         kind = result.flips, sorted(valences.tolist())
         if kind != last:

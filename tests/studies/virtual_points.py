@@ -38,8 +38,9 @@ def row(name, place, vertices, faces, flips=""):
     ]
 
 
-def searched(surfaces, **options):
+def searched(surfaces, search="greedy", **options):
     """Some models with all places under one search, and with the Willmore energy to compare."""
+    options["search"] = search
     for name, vertices, faces in surfaces:
         yield row(name, "(initial)", vertices, faces)
         for place in PLACES:

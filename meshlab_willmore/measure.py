@@ -16,8 +16,10 @@ from .guards import triangle_shape
 from .guards.cuts import mark_cuts
 from .guards.space import space_of
 from .mesh.build import build, interior_vertices
-from .mesh.jit import jit
+from .mesh.halfedge import Mesh
+from .mesh.jit import at, jit
 from .mesh.validate import check_mesh, in_input_units, to_unit_scale
+from .mesh.workers import crew
 
 FULL_TURN = 2.0 * math.pi
 # Faces between two looks at the keyboard.
@@ -118,9 +120,9 @@ def intersection_angles(vertices, faces):
         As `meshlab_willmore.mesh.validate.check_mesh`.
     """
     mesh = _unit_mesh(vertices, faces)[0]
-    interior = _interior_edges(mesh)
+    interior = np.flatnonzero(np.arange(len(mesh.twin)) < mesh.twin)
     edges = np.column_stack([mesh.origin[interior], mesh.origin[mesh.twin[interior]]])
-    return edges, np.nan_to_num(_edge_angles(mesh, interior))
+    return edges, np.nan_to_num(_lower_angles(mesh)[interior])
 
 
 def measures(vertices, faces):
@@ -222,36 +224,44 @@ def _unit_mesh(vertices, faces):
     return build(scaled, faces), exponent
 
 
-def _interior_edges(mesh):
-    """Return the lower half-edge of each edge with a twin."""
-    return np.flatnonzero(np.arange(len(mesh.twin)) < mesh.twin)
+class _Angles(NamedTuple):
+    """A mesh and the intersection angle of each half-edge that is the lower twin, to be found."""
+
+    mesh: Mesh
+    beta: np.ndarray
+
+
+def _lower_angles(mesh):
+    """Return the intersection angle at each lower twin (3 m,); what else is there means nothing."""
+    task = _Angles(mesh, np.empty(len(mesh.origin)))
+    with crew() as share:
+        share(_find_angles, task, len(mesh.origin))
+    return task.beta
+
+
+@jit
+def _find_angles(task, start, stop):
+    for h in range(start, stop):
+        if h < task.mesh.twin[at(h)]:
+            task.beta[at(h)] = edge_angle(task.mesh, h)
 
 
 def _vertex_energy(mesh):
-    edges = _interior_edges(mesh)
-    sums = _sums_at_ends(mesh, edges, _edge_angles(mesh, edges))
+    sums = _sums_at_ends(mesh, _lower_angles(mesh))
     defined = interior_vertices(mesh) & np.isfinite(sums)
     return np.where(defined, sums - FULL_TURN, 0.0)
 
 
 @jit
-def _sums_at_ends(mesh, edges, values):
-    """Sum the values of the edges (given as half-edges) at their end vertices."""
+def _sums_at_ends(mesh, beta):
+    """Sum the angles of the edges, which stand at their lower twins, at their end vertices."""
     sums = np.zeros(len(mesh.vertices))
-    for e in range(len(edges)):
-        h = edges[e]
-        sums[mesh.origin[h]] += values[e]
-        sums[mesh.origin[mesh.twin[h]]] += values[e]
+    for h in range(len(mesh.origin)):
+        t = mesh.twin[at(h)]
+        if h < t:
+            sums[at(mesh.origin[at(h)])] += beta[at(h)]
+            sums[at(mesh.origin[at(t)])] += beta[at(h)]
     return sums
-
-
-@jit
-def _edge_angles(mesh, edges):
-    """Return the intersection angle at each of the half-edges `edges`."""
-    beta = np.empty(len(edges))
-    for e in range(len(edges)):
-        beta[e] = edge_angle(mesh, edges[e])
-    return beta
 
 
 @jit

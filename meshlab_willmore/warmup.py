@@ -25,9 +25,10 @@ from .search.kernels import KERNELS
 
 VIRTUAL = "virtual willmore"
 _PLACE = 0.3
-_ROWS = 7
+_ROWS, _SLOPE_ROWS = 7, 30
 _HEIGHT = 0.4
 _FEATURE = 30.0
+_BEND, _SHEAR = 0.002, 0.3
 
 
 class Step(NamedTuple):
@@ -50,6 +51,13 @@ def steps() -> list[Step]:
     """All that a filter or a function of this package may compile; the default comes first."""
     return [
         *(Step(name, partial(optimize_flips, *_patch(), **given)) for name, given in _flips()),
+        *(
+            Step(name, partial(optimize_flips, *_slope(), energy="willmore", **given))
+            for name, given in (
+                ("waves of flips", {}),
+                ("waves of flips, self-intersections", {"checkintersections": True}),
+            )
+        ),
         *(
             Step(f"{function.__name__.replace('_', ' ')}", partial(function, *_patch()))
             for function in (
@@ -92,16 +100,29 @@ def _flips() -> Iterator[tuple[str, dict[str, Any]]]:
     )
 
 
-def _patch() -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """A rough patch with bad diagonals, on which every search finds something to do."""
-    x, y = (line.ravel() for line in np.mgrid[:_ROWS, :_ROWS])
-    height = np.random.default_rng(0).uniform(0.0, _HEIGHT, x.size)
-    low = np.arange(x.size).reshape(_ROWS, _ROWS)
+def _grid(rows: int) -> tuple[Any, Any, NDArray[np.int32]]:
+    """The coordinates of a square grid, and its faces, all cut along the same diagonal."""
+    x, y = (line.ravel().astype(np.float64) for line in np.mgrid[:rows, :rows])
+    low = np.arange(x.size).reshape(rows, rows)
     a, b, c, d = (
         corner.ravel() for corner in (low[:-1, :-1], low[1:, :-1], low[1:, 1:], low[:-1, 1:])
     )
     faces = np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
-    return np.stack([x, y, height], 1).astype(np.float64), faces.astype(np.int32)
+    return x, y, faces.astype(np.int32)
+
+
+def _slope() -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    """A smooth patch over which flips spread in a wave, so that few edges change at a time."""
+    x, y, faces = _grid(_SLOPE_ROWS)
+    height = _BEND * (x * x + x * y + 3.0 * y * y)
+    return np.stack([x + _SHEAR * y, y, height], 1), faces
+
+
+def _patch() -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    """A rough patch with bad diagonals, on which every search finds something to do."""
+    x, y, faces = _grid(_ROWS)
+    height = np.random.default_rng(0).uniform(0.0, _HEIGHT, x.size)
+    return np.stack([x, y, height], 1), faces
 
 
 def warm_up(say: Callable[[str], None]) -> Warmed:

@@ -61,7 +61,7 @@ def test_signature_is_the_promised_one():
     assert list(parameters)[:2] == ["vertices", "faces"]
     assert defaults == {
         "energy": "virtual willmore",
-        "search": "greedy",
+        "search": "parallel greedy",
         "depth": 5,
         "breadth": 3,
         "sweeps": 200,

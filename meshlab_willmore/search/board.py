@@ -121,9 +121,35 @@ def touch(pad, h, _):
         return
     low = min(h, t)
     if not board.is_touched[at(low)]:
-        board.is_touched[at(low)] = True
-        board.touched[at(pad.size[0])] = low
-        pad.size[0] += 1
+        put(pad, low)
+
+
+@jit
+def put(pad, low):
+    """Put an edge that is not there into the list of those to be scored."""
+    pad.board.is_touched[at(low)] = True
+    pad.board.touched[at(pad.size[0])] = low
+    pad.size[0] += 1
+
+
+class Row(NamedTuple):
+    """What `note` needs: the board, a row for edges (13,), and in `size` (1,) how many it has."""
+
+    mesh: Mesh
+    board: Board
+    edges: np.ndarray
+    size: np.ndarray
+
+
+@jit
+def note(row, h, _):
+    """Write the edge of `h` into the row, or nothing where it is none."""
+    t = row.mesh.twin[at(h)]
+    if t == NONE:
+        row.board.rank[at(h)] = NEVER
+        return
+    row.edges[at(row.size[0])] = min(h, t)
+    row.size[0] += 1
 
 
 @jit

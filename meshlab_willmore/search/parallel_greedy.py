@@ -38,8 +38,9 @@ from ..mesh.halfedge import (
     previous,
 )
 from ..mesh.jit import at, generic, inlined, jit
+from ..mesh.workers import PIECE, crew
 from . import board as boards
-from .board import Board, Pad, board_of, forbid
+from .board import Board, Pad, Row, board_of, forbid
 from .heap import NEVER
 from .lanes import JUDGE, LANES, RANKING, drop_at, empty_lanes, fill, find_drops, is_positive
 from .pairs import contains, insert, reserve
@@ -47,13 +48,14 @@ from .rules import CONVERGED, STOPPED, WORKING, Progress, brings_back, is_blocke
 from .scoring import gain_of
 from .touched import visit_around, visit_fans, visit_freed
 from .waiting import leave
-from .workers import PIECE, crew
 
 # Items of work that is done in order between two looks at the keyboard.
 SLICE = 16 * PIECE
 # What becomes of a candidate in a round.
 STAYS, IS_PEAK, FOLDS, IS_JOINED = range(4)
 NO_VERDICT = np.empty(0, np.int8)
+# An edge and those whose cost reduction its flip changes.
+MOST_AROUND = 13
 # Edges around one that changed, about.
 WATCHED_PER_CHANGE = 13
 # Knuth's multiplier (2**32 / golden ratio); odd, so that no two numbers get the same.
@@ -346,18 +348,38 @@ def _touch_waiting(pad, face):
         h = np.int64(waiting.first[face])
 
 
+class Slots(NamedTuple):
+    """A board and, for each flip of a round, room for the edges around it: (flips, 13) int32."""
+
+    board: Board
+    edges: np.ndarray
+
+
 @jit
-def touch(board, start, stop, size):
-    """Put the edges that the flips from `start` up to `stop` of this round touch into the list.
+def find_around(slots, start, stop):
+    """Write down the edges around the flips from `start` up to `stop` of this round.
 
     All flips of the round must be done: they move edges to other half-edges.
+    """
+    board, size = slots.board, np.zeros(1, np.int64)
+    for place in range(start, stop):
+        row = slots.edges[at(place)]
+        row[:] = NONE
+        size[0] = 0
+        visit_around(Row(board.mesh, board, row, size), board.done[at(place)], boards.note, None)
+
+
+@jit
+def touch(slots, start, stop, size):
+    """Put the edges that the flips from `start` up to `stop` of this round touch into the list.
 
     Returns
     -------
     int
         The new `size` of the list.
     """
-    mesh, pad = board.mesh, Pad(board.mesh, board, np.array([size]))
+    board, mesh = slots.board, slots.board.mesh
+    pad = Pad(mesh, board, np.array([size]))
     for place in range(start, stop):
         h = np.int64(board.done[at(place)])
         t = np.int64(mesh.twin[at(h)])
@@ -366,7 +388,9 @@ def touch(board, start, stop, size):
             for corner in (h, t, previous(h), previous(t)):
                 board.taken[mesh.origin[corner]] = False
         else:
-            visit_around(pad, h, boards.touch, None)
+            for low in slots.edges[at(place)]:
+                if low != NONE and not board.is_touched[at(low)]:
+                    boards.put(pad, low)
         i, j = mesh.origin[at(previous(h))], mesh.origin[at(previous(t))]
         if contains(board.awaited, i, j):
             visit_freed(pad, h, boards.touch, None)
@@ -374,6 +398,14 @@ def touch(board, start, stop, size):
             _touch_waiting(pad, h // 3)
             _touch_waiting(pad, t // 3)
     return pad.size[0]
+
+
+def _touch_all(board, flipped, share):
+    """Touch what the flips of this round have touched; return the number of edges."""
+    rows = 0 if board.rules.is_wide else flipped
+    slots = Slots(board, np.empty((rows, MOST_AROUND), np.int32))
+    share(find_around, slots, rows)
+    return _in_slices(touch, slots, flipped, 0)
 
 
 @jit
@@ -520,5 +552,5 @@ def run(kernel, mesh, rules, space=None, threads=None):
             if done.state == STOPPED:
                 break
             refused = done.refused
-            touched = _in_slices(touch, board, done.flipped, 0)
+            touched = _touch_all(board, done.flipped, share)
     return progress

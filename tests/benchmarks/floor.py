@@ -26,6 +26,7 @@ from meshlab_willmore.mesh.build import build
 from meshlab_willmore.mesh.halfedge import is_free
 from meshlab_willmore.mesh.jit import jit
 from meshlab_willmore.mesh.validate import check_mesh, to_unit_scale
+from meshlab_willmore.mesh.workers import crew
 from meshlab_willmore.search import entries
 from meshlab_willmore.search.board import board_of
 from meshlab_willmore.search.lanes import (
@@ -38,7 +39,6 @@ from meshlab_willmore.search.lanes import (
     find_drops,
     is_positive,
 )
-from meshlab_willmore.search.workers import crew
 from tests import meshes
 from tests.benchmarks import machine
 from tests.studies.models import print_table

@@ -114,7 +114,7 @@ def test_wrong_values_name_the_parameter_and_change_nothing(bumpy, options, mess
 def test_enums_by_index(bumpy):
     twin = set_of(*meshes.bumpy_sphere(300))
     assert (
-        bumpy.apply_filter(FLIP, energy=1, search=0)["gain"]
+        bumpy.apply_filter(FLIP, energy=1, search=1)["gain"]
         == twin.apply_filter(FLIP, energy="willmore", search="greedy")["gain"]
     )
 
@@ -386,7 +386,7 @@ def test_odd_meshes_come_out_whole(name, monotone):
     ms.apply_filter(SCALAR)
     assert_scalar_is_willmore_energy(ms)
     assert np.isfinite(list(ms.apply_filter(MEASURES).values())).all()
-    assert willmore_energy(vertices, faces) == returned["willmore_before"]
+    assert willmore_energy(vertices, faces) == pytest.approx(returned["willmore_before"], rel=1e-13)
     assert np.isfinite(intersection_angles(vertices, mesh.face_matrix())[1]).all()
 
 

@@ -11,10 +11,11 @@ from meshlab_willmore import guards
 from meshlab_willmore.energy import willmore
 from meshlab_willmore.energy.kinds import KINDS
 from meshlab_willmore.guards.space import no_space, space_of
+from meshlab_willmore.mesh import workers
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import apex, flip, following, is_free, makes_new_edge, previous
 from meshlab_willmore.optimize import optimize_flips
-from meshlab_willmore.search import parallel_greedy, workers
+from meshlab_willmore.search import parallel_greedy
 from meshlab_willmore.search.board import board_of
 from meshlab_willmore.search.heap import NEVER
 from meshlab_willmore.search.kernels import KERNELS
@@ -224,7 +225,8 @@ def test_of_two_flips_to_the_same_edge_the_smaller_waits_until_it_is_gone(larger
     for _ in range(3):
         flip(mesh, one)
     board.done[0] = one
-    size = parallel_greedy.touch(board, 0, 1, 0)
+    with workers.crew(1) as share:
+        size = parallel_greedy._touch_all(board, 1, share)
     assert other in board.touched[:size]
 
 

@@ -101,7 +101,7 @@ from meshlab_willmore.optimize import optimize_flips
 from meshlab_willmore.search.entries import greedy_virtual_at
 from tests import meshes
 for t in (0.1, 0.2):
-    optimize_flips(*meshes.cube(), virtualpoint=t)
+    optimize_flips(*meshes.cube(), virtualpoint=t, search="greedy")
 hits, misses = greedy_virtual_at.stats.cache_hits, greedy_virtual_at.stats.cache_misses
 print(len(greedy_virtual_at.signatures), sum(hits.values()), sum(misses.values()))
 """

@@ -8,9 +8,11 @@ import numpy as np
 from numba.extending import overload
 
 from ..mesh.halfedge import NONE, apex
-from ..mesh.jit import jit
+from ..mesh.jit import at, jit
 from .faces import count_as_cut, cut_exactly, face_of, from_corner, match
 from .space import after, faces_at, is_none, next_leaf
+
+ANY = np.empty(0, np.int32)
 
 
 @jit
@@ -42,9 +44,9 @@ def boxes_meet(one, other):
 @jit
 def face_at(mesh, f):
     """Return the face `f` as it is now."""
-    return face_of(
-        mesh.vertices, mesh.origin[3 * f], mesh.origin[3 * f + 1], mesh.origin[3 * f + 2]
-    )
+    first = 3 * f
+    u, v, w = mesh.origin[at(first)], mesh.origin[at(first + 1)], mesh.origin[at(first + 2)]
+    return face_of(mesh.vertices, u, v, w)
 
 
 @jit
@@ -71,15 +73,19 @@ def _new_faces(mesh, h):
 
 
 @jit
-def _first_cut(mesh, space, new, f, other):
-    """Return a face that `new`, which is to be face f, cuts, or `NONE`; leave out f and `other`."""
+def _first_cut(mesh, space, new, f, other, changed, number):
+    """Return a face that `new`, which is to be face f, cuts, or `NONE`; leave out f and `other`.
+
+    Only faces that have `changed` (m,) in the round `number`; with an empty array any.
+    """
+    any_will_do = len(changed) == 0
     box = box_of(new)
     node = next_leaf(space, 0, box)
     while node != NONE:
         start, stop = faces_at(space, node)
         for place in range(start, stop):
-            e = np.int64(space.order[place])
-            if e in (f, other):
+            e = np.int64(space.order[at(place)])
+            if e in (f, other) or not (any_will_do or changed[at(e)] == number):
                 continue
             near = face_at(mesh, e)
             if boxes_meet(box_of(near), box) and _are_refused(new, near, space.area_scale):
@@ -89,16 +95,16 @@ def _first_cut(mesh, space, new, f, other):
 
 
 @jit
-def _blocker(mesh, space, h):
+def _blocker(mesh, space, h, changed, number):
     f, g = np.int64(h // 3), np.int64(mesh.twin[h] // 3)
     one, other = _new_faces(mesh, h)
     if _are_refused(one, other, space.area_scale):
         return f
-    found = _first_cut(mesh, space, one, f, g)
-    return found if found != NONE else _first_cut(mesh, space, other, g, f)
+    found = _first_cut(mesh, space, one, f, g, changed, number)
+    return found if found != NONE else _first_cut(mesh, space, other, g, f, changed, number)
 
 
-def blocker(mesh, space, h):
+def blocker(mesh, space, h, changed, number):
     """Return a face that the flip of `h` would make a new face cut.
 
     Parameters
@@ -108,6 +114,11 @@ def blocker(mesh, space, h):
         Up to date with the mesh. One that is not active refuses nothing.
     h : int
         Half-edge that `can_flip` allows.
+    changed : (m,) int32
+        The round in which each face last changed. Faces that did not in this one are left out: it
+        was asked before this round whether they would be cut. `ANY`: all count.
+    number : int
+        Number of this round.
 
     Returns
     -------
@@ -115,18 +126,18 @@ def blocker(mesh, space, h):
         `NONE` if there is none: the flip may be made. The face of `h` if the two new faces would
         cut each other. As long as this face and the two at `h` stay, the answer stays.
     """
-    return _blocker(mesh, space, h) if space.active else NONE
+    return _blocker(mesh, space, h, changed, number) if space.active else NONE
 
 
 @overload(blocker)
-def _compiled_blocker(mesh, space, h):
-    return (lambda mesh, space, h: NONE) if is_none(space) else blocker
+def _compiled_blocker(mesh, space, h, changed, number):
+    return (lambda mesh, space, h, changed, number: NONE) if is_none(space) else blocker
 
 
 @jit
 def would_cut(mesh, space, h):
     """Tell whether the flip of `h` is refused, as `blocker` does; never if nothing is active."""
-    return blocker(mesh, space, h) != NONE
+    return blocker(mesh, space, h, ANY, 0) != NONE
 
 
 @jit
@@ -142,7 +153,7 @@ def mark_cuts(mesh, space, marked, start, stop):
         while node != NONE:
             first, last = faces_at(space, node)
             for place in range(first, last):
-                e = np.int64(space.order[place])
+                e = np.int64(space.order[at(place)])
                 if e <= f or (marked[e] and marked[f]):
                     continue
                 near = face_at(mesh, e)

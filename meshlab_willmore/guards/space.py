@@ -15,7 +15,7 @@ from numba import types
 from numba.extending import overload
 
 from ..mesh.halfedge import NONE
-from ..mesh.jit import jit
+from ..mesh.jit import at, jit
 
 # Faces in a leaf: half as many up to as many. More cost more tests, fewer cost memory.
 LEAF_FACES = 4
@@ -134,8 +134,8 @@ def _longest_axis(order, middles, start, stop):
     for axis in range(3):
         least = most = middles[order[start], axis]
         for place in range(start + 1, stop):
-            least = min(least, middles[order[place], axis])
-            most = max(most, middles[order[place], axis])
+            middle = middles[at(order[at(place)]), at(axis)]
+            least, most = min(least, middle), max(most, middle)
         if most - least > longest:
             longest, best = most - least, axis
     return best
@@ -151,12 +151,12 @@ def _select(order, keys, first, last, middle):
         pivot = keys[order[(first + last) // 2]]
         i, j = first, last
         while i <= j:
-            while keys[order[i]] < pivot:
+            while keys[at(order[at(i)])] < pivot:
                 i += 1
-            while keys[order[j]] > pivot:
+            while keys[at(order[at(j)])] > pivot:
                 j -= 1
             if i <= j:
-                order[i], order[j] = order[j], order[i]
+                order[at(i)], order[at(j)] = order[at(j)], order[at(i)]
                 i += 1
                 j -= 1
         if middle <= j:
@@ -195,8 +195,8 @@ def _bound_leaf(mesh, space, leaf):
     for axis in range(3):
         least, most = np.inf, -np.inf
         for place in range(_start(leaf, faces, leaves), _start(leaf + 1, faces, leaves)):
-            for h in range(3 * space.order[place], 3 * space.order[place] + 3):
-                value = mesh.vertices[mesh.origin[h], axis]
+            for h in range(3 * space.order[at(place)], 3 * space.order[at(place)] + 3):
+                value = mesh.vertices[at(mesh.origin[at(h)]), at(axis)]
                 least, most = min(least, value), max(most, value)
         changed |= _set_span(space, node, axis, least, most)
     return changed
@@ -208,17 +208,18 @@ def _bound_node(space, node):
     changed = False
     left, right = 2 * node + 1, 2 * node + 2
     for axis in range(3):
-        least = min(space.box[left, axis], space.box[right, axis])
-        most = max(space.box[left, 3 + axis], space.box[right, 3 + axis])
+        least = min(space.box[at(left), at(axis)], space.box[at(right), at(axis)])
+        most = max(space.box[at(left), at(3 + axis)], space.box[at(right), at(3 + axis)])
         changed |= _set_span(space, node, axis, least, most)
     return changed
 
 
 @jit
 def _set_span(space, node, axis, least, most):
-    if space.box[node, axis] == least and space.box[node, 3 + axis] == most:
+    row, low, high = at(node), at(axis), at(3 + axis)
+    if space.box[row, low] == least and space.box[row, high] == most:
         return False
-    space.box[node, axis], space.box[node, 3 + axis] = least, most
+    space.box[row, low], space.box[row, high] = least, most
     return True
 
 
@@ -268,13 +269,14 @@ def next_leaf(space, node, box):
     """
     inner = len(space.box) // 2
     while node != NONE:
+        row = at(node)
         meets = (
-            space.box[node, 0] <= box[3]
-            and space.box[node, 1] <= box[4]
-            and space.box[node, 2] <= box[5]
-            and space.box[node, 3] >= box[0]
-            and space.box[node, 4] >= box[1]
-            and space.box[node, 5] >= box[2]
+            (space.box[row, at(0)] <= box[3])
+            & (space.box[row, at(1)] <= box[4])
+            & (space.box[row, at(2)] <= box[5])
+            & (space.box[row, at(3)] >= box[0])
+            & (space.box[row, at(4)] >= box[1])
+            & (space.box[row, at(5)] >= box[2])
         )
         if not meets:
             node = after(node)

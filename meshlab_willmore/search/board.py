@@ -47,6 +47,8 @@ class Board(NamedTuple):
         in the low 32 bits the number of the peak.
     space : Space
     waiting : Waiting
+    changed : (m,) int32
+        The round in which each face last changed; empty if the space is not active.
     """
 
     mesh: Mesh
@@ -67,6 +69,7 @@ class Board(NamedTuple):
     new_edge: np.ndarray
     space: Space
     waiting: Waiting
+    changed: np.ndarray
 
 
 def board_of(mesh, rules, space):
@@ -92,6 +95,7 @@ def board_of(mesh, rules, space):
         new_edge=np.zeros(len(mesh.vertices), np.int64),
         space=space,
         waiting=nothing_waits(len(space.order)),
+        changed=np.zeros(len(space.order), np.int32),
     )
 
 

@@ -28,6 +28,7 @@ from .. import guards
 from ..energy import willmore
 from ..energy.angles import radians
 from ..guards import space as spaces
+from ..guards.cuts import blocker, would_cut
 from ..mesh.halfedge import (
     NONE,
     apex,
@@ -44,7 +45,7 @@ from .board import Board, Pad, Row, board_of, forbid
 from .heap import NEVER
 from .lanes import JUDGE, LANES, RANKING, drop_at, empty_lanes, fill, find_drops, is_positive
 from .pairs import contains, insert, reserve
-from .rules import CONVERGED, STOPPED, WORKING, Progress, brings_back, is_blocked
+from .rules import CONVERGED, STOPPED, WORKING, Progress, brings_back, is_blocked, must_wait
 from .scoring import gain_of
 from .touched import visit_around, visit_fans, visit_freed
 from .waiting import leave
@@ -52,7 +53,7 @@ from .waiting import leave
 # Items of work that is done in order between two looks at the keyboard.
 SLICE = 16 * PIECE
 # What becomes of a candidate in a round.
-STAYS, IS_PEAK, FOLDS, IS_JOINED = range(4)
+STAYS, IS_PEAK, FOLDS, IS_JOINED, IS_BLOCKED = range(5)
 NO_VERDICT = np.empty(0, np.int8)
 # An edge and those whose cost reduction its flip changes.
 MOST_AROUND = 13
@@ -197,8 +198,10 @@ def find_peaks(look, start, stop):
             verdict = STAYS
         elif guards.folds(board.mesh, h, board.rules.fold):
             verdict = FOLDS
+        elif not makes_new_edge(board.mesh, h):
+            verdict = IS_JOINED
         else:
-            verdict = IS_PEAK if makes_new_edge(board.mesh, h) else IS_JOINED
+            verdict = IS_BLOCKED if would_cut(board.mesh, board.space, h) else IS_PEAK
         look.verdict[at(place)] = verdict
 
 
@@ -270,6 +273,15 @@ def _take_corners(board, h):
     return True
 
 
+@jit
+def _is_blocked_by_now(board, h, verdict, number):
+    """Tell whether a new face would cut another one; the verdict tells how it was before."""
+    if verdict == IS_BLOCKED:
+        return is_blocked(board, h)
+    face = blocker(board.mesh, board.space, h, board.changed, number)
+    return must_wait(board, h, face)
+
+
 class Done(NamedTuple):
     """How many peaks were flipped and refused, the cost reductions of the flips, the state."""
 
@@ -280,7 +292,7 @@ class Done(NamedTuple):
 
 
 @jit
-def flip_peaks(look, start, stop, first, left, done):
+def flip_peaks(look, start, stop, first, left, number, done):
     """Flip the peaks from `start` up to `stop` that are allowed.
 
     Parameters
@@ -291,6 +303,8 @@ def flip_peaks(look, start, stop, first, left, done):
         `first` as from `_peaks`.
     left : int
         How many flips may be made in this round.
+    number : int
+        Number of the round.
     done : tuple
         The fields of what was done in this round before, as Done.
 
@@ -313,7 +327,7 @@ def flip_peaks(look, start, stop, first, left, done):
             is_joined
             or verdict == FOLDS
             or (is_tie and brings_back(mesh, board.gone, h))
-            or is_blocked(board, h)
+            or _is_blocked_by_now(board, h, verdict, number)
         ):
             forbid(board, h)
             refused += 1
@@ -329,6 +343,7 @@ def flip_peaks(look, start, stop, first, left, done):
         flip(mesh, h)
         if board.space.active:
             spaces.follow(mesh, board.space, h)
+            board.changed[h // 3] = board.changed[mesh.twin[h] // 3] = number
         board.done[at(flipped)] = h
         flipped += 1
     return flipped, refused, gain, state
@@ -475,7 +490,7 @@ def _in_slices(kernel, task, stop, value):
 # --- the search ----------------------------------------------------------------------------------
 
 
-def _flip_all(board, peaks, first, left):
+def _flip_all(board, peaks, first, left, number):
     """Flip all peaks that are allowed; return the board, and what was done."""
     done = Done(0, 0, 0.0, WORKING)
     for start in range(0, len(peaks.edges), SLICE):
@@ -483,7 +498,9 @@ def _flip_all(board, peaks, first, left):
             gone=reserve(board.gone, SLICE), awaited=reserve(board.awaited, SLICE)
         )
         stop = min(start + SLICE, len(peaks.edges))
-        done = Done(*flip_peaks(peaks._replace(board=board), start, stop, first, left, tuple(done)))
+        done = Done(
+            *flip_peaks(peaks._replace(board=board), start, stop, first, left, number, tuple(done))
+        )
         if done.state == STOPPED:
             break
     return board, done
@@ -546,7 +563,7 @@ def run(kernel, mesh, rules, space=None, threads=None):
             look = Look(board, edges, np.empty(len(edges), np.int8))
             share(find_peaks, look, len(edges))
             peaks, first = _peaks(look, number, progress.flips)
-            board, done = _flip_all(board, peaks, first, rules.maxflips - progress.flips)
+            board, done = _flip_all(board, peaks, first, rules.maxflips - progress.flips, number)
             flips, gain = progress.flips + done.flipped, progress.gain + done.gain
             progress = Progress(progress.scored, flips, gain, done.state)
             if done.state == STOPPED:

@@ -74,10 +74,13 @@ def is_blocked(task, h):
     h : int
         Half-edge that may be flipped.
     """
-    if not task.space.active:
-        return False
-    face = cuts.blocker(task.mesh, task.space, h)
-    if face == NONE:
+    return must_wait(task, h, cuts.blocker(task.mesh, task.space, h, cuts.ANY, 0))
+
+
+@jit
+def must_wait(task, h, face):
+    """Let `h` wait until the face that blocks it changes, if there is one; tell whether."""
+    if not task.space.active or face == NONE:
         return False
     wait(task.waiting, h, face)
     return True

@@ -73,7 +73,7 @@ def test_the_index_finds_what_all_pairs_tell(name):
             if not can_flip(mesh, h):
                 continue
             blocking = brute.blockers(mesh, h, space.area_scale)
-            found = int(cuts.blocker(mesh, space, h))
+            found = int(cuts.blocker(mesh, space, h, cuts.ANY, 0))
             assert (found in blocking) if blocking else (found == NONE)
             assert bool(cuts.would_cut(mesh, space, h)) == bool(blocking)
         np.testing.assert_array_equal(mesh.origin, before.origin)
@@ -185,14 +185,14 @@ def test_without_a_guard_nothing_is_refused():
         if can_flip(mesh, h):
             assert not cuts.would_cut(mesh, space, h)
     spaces.follow(mesh, space, 0)
-    assert cuts.blocker(mesh, space, 0) == NONE
+    assert cuts.blocker(mesh, space, 0, cuts.ANY, 0) == NONE
     assert not spaces.space_of(build(np.empty((0, 3)), np.empty((0, 3), np.int32))).active
 
 
 @jit
 def _flipped(mesh, space, h):
     """What a search asks and does."""
-    refused = cuts.would_cut(mesh, space, h) or cuts.blocker(mesh, space, h) != NONE
+    refused = cuts.would_cut(mesh, space, h) or cuts.blocker(mesh, space, h, cuts.ANY, 0) != NONE
     if not refused:
         flip(mesh, h)
         spaces.follow(mesh, space, h)

@@ -11,6 +11,7 @@ from meshlab_willmore import guards
 from meshlab_willmore.energy import willmore
 from meshlab_willmore.energy.kinds import KINDS
 from meshlab_willmore.guards.space import no_space, space_of
+from meshlab_willmore.measure import self_intersections
 from meshlab_willmore.mesh import workers
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import apex, flip, following, is_free, makes_new_edge, previous
@@ -155,7 +156,7 @@ def peaks_of(board, edges, number=1):
 def flip_all(board, edges):
     """Flip the peaks among the edges in one round; return the board, those, and what was done."""
     _, peaks, first = peaks_of(board, edges)
-    board, done = parallel_greedy._flip_all(board, peaks, first, 10**6)
+    board, done = parallel_greedy._flip_all(board, peaks, first, 10**6, 1)
     return board, list(board.done[: done.flipped]), done
 
 
@@ -193,9 +194,9 @@ def bipyramid(count):
     return vertices, np.vstack([top, bottom]).astype(np.int32)
 
 
-def with_ranks(mesh, ranks):
+def with_ranks(mesh, ranks, space=None):
     """A board on which just these edges have a rank."""
-    board = board_of(mesh, rules_for("willmore", FREE), no_space())
+    board = board_of(mesh, rules_for("willmore", FREE), no_space() if space is None else space)
     for h, rank in ranks.items():
         board.rank[h] = board.rank[mesh.twin[h]] = rank
     return board
@@ -315,6 +316,68 @@ def test_with_the_guard_edges_that_would_cut_are_tried_again(energy):
     for h in edges_of(mesh):
         if rules.is_potential and rank_of(mesh, h, rules, energy) and makes_new_edge(mesh, h):
             assert guards.cuts.would_cut(mesh, space, h)
+
+
+@pytest.mark.parametrize("gap", [1.0, 3.0])
+def test_two_flips_of_a_round_do_not_cut_each_other(gap):
+    """Two bent squares face each other crosswise; flipped, each has its ridge near the other."""
+    low = [(-1, 0, -1), (1, 0, -1), (0, 1, 1), (0, -1, 1)]
+    high = [(y, x, gap - z) for x, y, z in low]
+    faces = np.array([(0, 1, 2), (1, 0, 3), (4, 5, 6), (5, 4, 7)], np.int32)
+    mesh = build(np.array(low + high, float) / 4, faces)
+    space = space_of(mesh)
+    two = edges_of(mesh)
+    assert [ends(mesh, h) for h in two] == [{0, 1}, {4, 5}]
+    board = with_ranks(mesh, {two[0]: 1.0, two[1]: 2.0}, space)
+    verdict, _, _ = peaks_of(board, two, 7)
+    assert list(verdict) == [IS_PEAK, IS_PEAK]
+    board, flipped, done = flip_all(board, two)
+    if gap > 2.0:
+        assert flipped == [two[1], two[0]]
+    else:
+        assert (flipped, done.refused, board.rank[two[0]]) == ([two[1]], 1, NEVER)
+        # It waits until that face changes again.
+        flip(mesh, two[1])
+        board.done[0] = two[1]
+        with workers.crew(1) as share:
+            size = parallel_greedy._touch_all(board, 1, share)
+        assert two[0] in board.touched[:size]
+    assert not self_intersections(mesh.vertices, faces_of(mesh)).any()
+
+
+@HEAVY
+@pytest.mark.parametrize("seed", range(4))
+def test_with_the_guard_too_the_number_of_threads_changes_nothing(seed, monkeypatch):
+    vertices, faces = meshes.crumpled(11, seed, noise=1.5)
+    monkeypatch.setattr(workers, "PIECE", 5)
+    known, results = set(map(frozenset, faces.tolist())), []
+    for threads in (1, 3):
+        mesh = build(vertices, faces)
+        rules = rules_for("willmore", FREE)
+        kernel = KERNELS["willmore"].score
+        parallel_greedy.run(kernel, mesh, rules, space_of(mesh), threads=threads)
+        is_new = np.array([frozenset(f) not in known for f in faces_of(mesh).tolist()])
+        assert is_new.any()
+        assert not (self_intersections(vertices, faces_of(mesh)) & is_new).any()
+        results.append(mesh.origin.tobytes())
+    assert results[0] == results[1]
+
+
+def test_what_changed_in_this_round_is_looked_at_again():
+    vertices, faces = meshes.bumpy_sphere(60, bump=0.95)
+    mesh = build(vertices, faces)
+    space = space_of(mesh)
+    blocked = {}
+    for h in edges_of(mesh):
+        face = guards.cuts.blocker(mesh, space, h, guards.cuts.ANY, 0)
+        if makes_new_edge(mesh, h) and face not in (-1, h // 3):
+            blocked[h] = face
+    assert blocked
+    for h, face in blocked.items():
+        changed = np.ones(len(faces), np.int32)
+        changed[face] = 2
+        assert guards.cuts.blocker(mesh, space, h, changed, 2) == face
+        assert guards.cuts.blocker(mesh, space, h, changed, 3) == -1
 
 
 # --- threads -------------------------------------------------------------------------------------

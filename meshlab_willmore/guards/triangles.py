@@ -154,6 +154,9 @@ def _meet_besides(s, a, b, c, d):
     at_a, at_b = orient3d(s, c, d, a), orient3d(s, c, d, b)
     if at_a * at_b > 0:
         return False
+    at_c, at_d = orient3d(s, a, b, c), orient3d(s, a, b, d)
+    if at_c * at_d > 0:
+        return False
     return segment_meets(a, b, s, c, d) or segment_meets(c, d, s, a, b)
 
 

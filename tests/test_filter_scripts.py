@@ -54,6 +54,7 @@ def test_clean_and_flip_a_face_scan():
     assert topology["unreferenced_vertices"] == 0
 
 
+@pytest.mark.heavy
 def test_flip_a_bunny():
     ms = loaded("bunny10k_textured.obj")
     before, vertices = willmore(ms), ms.current_mesh().vertex_matrix()
@@ -62,6 +63,7 @@ def test_flip_a_bunny():
     np.testing.assert_array_equal(ms.current_mesh().vertex_matrix(), vertices)
 
 
+@pytest.mark.heavy
 def test_remesh_and_flip_a_bone():
     ms = loaded("bone.ply")
     remeshed = loaded("bone.ply")
@@ -75,6 +77,7 @@ def test_remesh_and_flip_a_bone():
     assert np.median(triangle_shapes(mesh.vertex_matrix(), mesh.face_matrix())) > 0.9
 
 
+@pytest.mark.heavy
 def test_flip_smooth_and_measure_a_bunny():
     ms = loaded("bunny10k_textured.obj")
     steps = run("flip_smooth_measure.mlx", ms)

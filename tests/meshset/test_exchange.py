@@ -221,6 +221,7 @@ def pixels(image, folder):
     return path.read_bytes()
 
 
+@pytest.mark.heavy
 def test_textures_survive(textured, tmp_path):
     before = state(textured)
     image = pixels(textured.current_mesh().texture(0), tmp_path)
@@ -238,6 +239,7 @@ def seams_of(ms):
     return {frozenset(edge) for edge in fixed_edges(snapshot).tolist()}
 
 
+@pytest.mark.heavy
 def test_seams_stay(textured):
     before = seams_of(textured)
     assert len(before) > 100
@@ -245,6 +247,7 @@ def test_seams_stay(textured):
     assert seams_of(textured) == before
 
 
+@pytest.mark.heavy
 def test_the_image_of_a_textured_face_stays_in_its_chart(textured):
     """No new face stretches over the texture: its area there stays positive and in scale."""
     before = _texture_areas(textured)
@@ -312,6 +315,7 @@ def test_several_textures_survive(tmp_path, names):
 @pytest.mark.parametrize(
     "name", ["with space.png", "photo.jpg", "scan.tga", "Wände.png", "TEXTUR~1.PNG", "50%25.png"]
 )
+@pytest.mark.heavy
 def test_a_texture_keeps_any_name(textured, tmp_path, name):
     exchange._save_image(textured.current_mesh().texture(0), tmp_path / name)
     textured.set_texture_per_mesh(textname=str(tmp_path / name))
@@ -333,6 +337,7 @@ def black_png(side):
     )
 
 
+@pytest.mark.heavy
 def test_a_file_of_a_textures_name_in_the_working_folder_is_not_taken(
     textured, tmp_path, monkeypatch
 ):
@@ -355,6 +360,7 @@ def test_several_oddly_named_textures_are_lost_by_name_only(tmp_path):
     assert pixels(images["a%7E1.png"], tmp_path) == image
 
 
+@pytest.mark.heavy
 def test_the_current_folder_and_the_users_files_stay(textured, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     textured.apply_filter(FLIP)
@@ -404,6 +410,7 @@ def test_attributes_that_cannot_be_named_are_an_error(bumpy):
     assert bumpy.apply_filter(FLIP, allowloss=True)["flips"] > 0
 
 
+@pytest.mark.heavy
 def test_a_texture_without_image_is_an_error(textured):
     copy = pymeshlab.MeshSet()
     copy.add_mesh(textured.current_mesh())

@@ -67,8 +67,9 @@ def turn(a_p, b_p, a_q, b_q):
     r, s = dot(n1, n2) - c1 * c2, math.sqrt(x * x + y * y + z * z)
     # The 1-norm is cheaper than the length, and as good to keep products of turns in range.
     size = abs(r) + s
-    scale = 1.0 / (size if size > 0.0 else math.nan)
-    return Turn(r * scale, s * scale)
+    # Divisions, since the inverse of the least numbers is out of range.
+    size = size if size > 0.0 else math.nan
+    return Turn(r / size, s / size)
 
 
 @jit

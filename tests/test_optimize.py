@@ -443,7 +443,7 @@ def test_locked_edges_stay():
 def folded_over():
     """A flat patch, one vertex of which lies outside its ring: some edges are bent by 180."""
     vertices, faces = meshes.patch(60, height=0.0)
-    vertices[faces[20, 0], :2] += 0.3
+    vertices[faces[30, 0], :2] += 0.3
     return vertices, faces
 
 
@@ -451,7 +451,7 @@ def test_a_featuredeg_of_180_keeps_not_even_what_is_folded_over():
     vertices, faces = folded_over()
     creased = optimize_flips(vertices, faces, energy="willmore", featuredeg=179.9)
     free = optimize_flips(vertices, faces, energy="willmore", featuredeg=180.0)
-    assert creased.willmore_after > free.willmore_after
+    assert creased.willmore_after > free.willmore_after + 1.0
 
 
 def test_features_stay():

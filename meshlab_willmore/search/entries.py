@@ -15,7 +15,7 @@ from ..energy import (
     willmore,
 )
 from ..mesh.jit import jit
-from . import annealing, greedy, parallel_greedy, variable_depth
+from . import annealing, batches, greedy, variable_depth
 
 # --- meshlab_willmore.search.greedy.advance ------------------------------------------------------
 
@@ -74,61 +74,61 @@ def greedy_delaunay(task, progress):
     return greedy.advance(task, progress, delaunay.cost_reduction)
 
 
-# --- meshlab_willmore.search.parallel_greedy.score_in_lanes, score_each --------------------------
+# --- meshlab_willmore.search.batches.score_in_lanes, score_each --------------------------
 
 
 @jit
 def score_virtual(board, start, stop):
     """Score edges by the virtual Willmore energy."""
-    parallel_greedy.score_in_lanes(board, start, stop, virtual.drop, willmore.drop)
+    batches.score_in_lanes(board, start, stop, virtual.drop, willmore.drop)
 
 
 @jit
 def score_willmore(board, start, stop):
     """Score edges by the Willmore energy."""
-    parallel_greedy.score_in_lanes(board, start, stop, willmore.drop, None)
+    batches.score_in_lanes(board, start, stop, willmore.drop, None)
 
 
 @jit
 def score_virtual_closest(board, start, stop):
     """Score edges by the virtual Willmore energy where the diagonals pass nearest each other."""
-    parallel_greedy.score_each(board, start, stop, virtual_closest.cost_reduction)
+    batches.score_each(board, start, stop, virtual_closest.cost_reduction)
 
 
 @jit
 def score_virtual_at(board, start, stop):
     """Score edges by the virtual Willmore energy at the place that the rules give."""
-    parallel_greedy.score_each(board, start, stop, virtual_at.cost_reduction)
+    batches.score_each(board, start, stop, virtual_at.cost_reduction)
 
 
 @jit
 def score_uniform(board, start, stop):
     """Score edges by the uniform virtual Willmore energy."""
-    parallel_greedy.score_each(board, start, stop, uniform.cost_reduction)
+    batches.score_each(board, start, stop, uniform.cost_reduction)
 
 
 @jit
 def score_area(board, start, stop):
     """Score edges by the area."""
-    parallel_greedy.score_each(board, start, stop, area.cost_reduction)
+    batches.score_each(board, start, stop, area.cost_reduction)
 
 
 @jit
 def score_mean(board, start, stop):
     """Score edges by the absolute mean curvature."""
-    parallel_greedy.score_each(board, start, stop, mean_curvature.cost_reduction)
+    batches.score_each(board, start, stop, mean_curvature.cost_reduction)
 
 
 @jit
 def score_gaussian(board, start, stop):
     """Score edges by the absolute Gaussian curvature."""
-    parallel_greedy.score_each(board, start, stop, gaussian_curvature.cost_reduction)
+    batches.score_each(board, start, stop, gaussian_curvature.cost_reduction)
 
 
 @jit
 def score_delaunay(board, start, stop):
     """Score edges by the harmonic index."""
-    parallel_greedy.score_each(board, start, stop, delaunay.cost_reduction)
+    batches.score_each(board, start, stop, delaunay.cost_reduction)
 
 
 # --- meshlab_willmore.search.variable_depth.advance ----------------------------------------------

@@ -16,11 +16,11 @@ from meshlab_willmore.mesh import workers
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import apex, flip, following, is_free, makes_new_edge, previous
 from meshlab_willmore.optimize import optimize_flips
-from meshlab_willmore.search import parallel_greedy
+from meshlab_willmore.search import lists, parallel_greedy, peaks
 from meshlab_willmore.search.board import board_of
 from meshlab_willmore.search.heap import NEVER
 from meshlab_willmore.search.kernels import KERNELS
-from meshlab_willmore.search.parallel_greedy import IS_JOINED, IS_PEAK, STAYS, Look
+from meshlab_willmore.search.peaks import IS_JOINED, IS_PEAK, STAYS, Look
 from meshlab_willmore.search.rules import CONVERGED, STOPPED
 from tests import meshes
 from tests.search.ways import FREE, GUARDED, MESHES, rules_for, shuffled
@@ -74,17 +74,17 @@ def rounds_by_scanning(mesh, rules, energy):
         for h in edges_of(mesh):
             found = rank_of(mesh, h, rules, energy)
             if found and ends(mesh, h) not in asleep:
-                number = int(parallel_greedy.scrambled(h))
+                number = int(peaks.scrambled(h))
                 ranks[ends(mesh, h)] = (-found[0], number, h, found[1])
         if not ranks:
             return len(gains), math.fsum(gains)
-        peaks = []
+        chosen = []
         for entry in ranks.values():
             around = [ranks[other] for other in six_faces(mesh, entry[2]) if other in ranks]
             if min(around) == entry:
-                peaks.append(entry)
-        flipped, is_new = [], {h: makes_new_edge(mesh, h) for _, _, h, _ in peaks}
-        for _, _, h, is_tie in sorted(peaks):
+                chosen.append(entry)
+        flipped, is_new = [], {h: makes_new_edge(mesh, h) for _, _, h, _ in chosen}
+        for _, _, h, is_tie in sorted(chosen):
             if guards.folds(mesh, h, rules.fold) or (is_tie and flipped_ends(mesh, h) in gone):
                 asleep[ends(mesh, h)] = None
             elif not (is_new[h] and makes_new_edge(mesh, h)):
@@ -126,7 +126,7 @@ def scored(mesh, rules, energy, space=None):
     """The board after the first score, its candidates, and their number."""
     board = board_of(mesh, rules, no_space() if space is None else space)
     KERNELS[energy].score(board, 0, len(board.touched))
-    return board, parallel_greedy.add_candidates(board, 0, len(board.touched), 0)
+    return board, lists.add_candidates(board, 0, len(board.touched), 0)
 
 
 @pytest.mark.parametrize("energy", BOTH_WILLMORE)
@@ -149,14 +149,14 @@ def peaks_of(board, edges, number=1):
     """The verdict on each of the edges, and the peaks, in order, with the first contested place."""
     edges = np.array(edges, np.int32)
     look = Look(board, edges, np.empty(len(edges), np.int8))
-    parallel_greedy.find_peaks(look, 0, len(edges))
-    return look.verdict, *parallel_greedy._peaks(look, number, 0)
+    peaks.find_peaks(look, 0, len(edges))
+    return look.verdict, *peaks.in_order(look, number, 0)
 
 
 def flip_all(board, edges):
     """Flip the peaks among the edges in one round; return the board, those, and what was done."""
-    _, peaks, first = peaks_of(board, edges)
-    board, done = parallel_greedy._flip_all(board, peaks, first, 10**6, 1)
+    _, chosen, first = peaks_of(board, edges)
+    board, done = parallel_greedy._flip_all(board, chosen, first, 10**6, 1)
     return board, list(board.done[: done.flipped]), done
 
 
@@ -227,7 +227,7 @@ def test_of_two_flips_to_the_same_edge_the_smaller_waits_until_it_is_gone(larger
         flip(mesh, one)
     board.done[0] = one
     with workers.crew(1) as share:
-        size = parallel_greedy._touch_all(board, 1, share)
+        size = lists.touch_all(board, 1, share)
     assert other in board.touched[:size]
 
 
@@ -236,11 +236,11 @@ def test_edges_of_equal_gain_do_not_wait_for_the_first_of_all():
     edges = [h for h in edges_of(mesh) if is_free(mesh, h)]
     board = with_ranks(mesh, dict.fromkeys(edges, 1.0))
     verdict, _, _ = peaks_of(board, edges)
-    peaks = {h for h, what in zip(edges, verdict, strict=True) if what != STAYS}
-    assert len(peaks) > len(edges) / 26
-    for h in peaks:
+    chosen = {h for h, what in zip(edges, verdict, strict=True) if what != STAYS}
+    assert len(chosen) > len(edges) / 26
+    for h in chosen:
         around = {x for x in edges if ends(mesh, x) in six_faces(mesh, h)}
-        assert peaks & around == {h}
+        assert chosen & around == {h}
 
 
 @pytest.mark.parametrize("energy", ENERGIES)
@@ -249,7 +249,7 @@ def test_the_number_of_threads_changes_nothing(energy, name, monkeypatch):
     results, gains = [], []
     for threads, piece in ((2, 2048), (1, 7), (4, 7), (3, 1), (6, 16)):
         monkeypatch.setattr(workers, "PIECE", piece)
-        monkeypatch.setattr(parallel_greedy, "SLICE", 3 * piece)
+        monkeypatch.setattr(lists, "SLICE", 3 * piece)
         # To look at all candidates, or at those around changes only, must be the same.
         monkeypatch.setattr(parallel_greedy, "WATCHED_PER_CHANGE", 10 * (threads % 2))
         mesh = ALL_MESHES[name]()
@@ -340,7 +340,7 @@ def test_two_flips_of_a_round_do_not_cut_each_other(gap):
         flip(mesh, two[1])
         board.done[0] = two[1]
         with workers.crew(1) as share:
-            size = parallel_greedy._touch_all(board, 1, share)
+            size = lists.touch_all(board, 1, share)
         assert two[0] in board.touched[:size]
     assert not self_intersections(mesh.vertices, faces_of(mesh)).any()
 

@@ -89,21 +89,32 @@ INTERRUPTED = """
 import os, signal, sys, threading, time
 import numpy as np, pymeshlab, meshlab_willmore
 sys.path.insert(0, sys.argv[1])
+from meshlab_willmore.search import peaks
 from tests import meshes
+# Of the annealing, far more than anyone would wait for.
+options = {"search": sys.argv[2], "energy": "willmore", "sweeps": 10**6}
 ms = pymeshlab.MeshSet()
 ms.add_mesh(pymeshlab.Mesh(*meshes.bumpy_sphere(200)))
-ms.apply_filter("meshing_edge_flip_by_willmore_optimization")
+ms.meshing_edge_flip_by_willmore_optimization(**options | {"sweeps": 1})
 ms.clear()
-vertices, faces = meshes.torus(150_000, None, 1)
+vertices, faces = meshes.torus(50_000, None, 1)
 ms.add_mesh(pymeshlab.Mesh(vertices, faces))
 sent = []
 def interrupt():
-    time.sleep(0.6)
     sent.append(time.perf_counter())
     os.kill(os.getpid(), signal.SIGINT)
-threading.Thread(target=interrupt).start()
+if sys.argv[2] == "annealing":
+    threading.Timer(2.0, interrupt).start()
+else:
+    # In the middle of the first round, on either thread.
+    find_peaks = peaks.find_peaks
+    def interrupted(look, start, stop):
+        if start > 5000 and not sent:
+            interrupt()
+        find_peaks(look, start, stop)
+    peaks.find_peaks = interrupted
 try:
-    ms.apply_filter("meshing_edge_flip_by_willmore_optimization")
+    ms.meshing_edge_flip_by_willmore_optimization(**options)
     print("done")
 except KeyboardInterrupt:
     late = time.perf_counter() - sent[0]
@@ -114,9 +125,13 @@ except KeyboardInterrupt:
 
 @pytest.mark.heavy
 @pytest.mark.skipif(os.name == "nt", reason="no signals to send")
-def test_ctrl_c_stops_a_long_run_and_changes_nothing(request):
+@pytest.mark.parametrize("search", ["parallel greedy", "annealing"])
+def test_ctrl_c_stops_a_long_run_and_changes_nothing(search, request):
     root = str(request.config.rootpath)
     run = subprocess.run(
-        [sys.executable, "-c", INTERRUPTED, root], capture_output=True, text=True, timeout=300
+        [sys.executable, "-c", INTERRUPTED, root, search],
+        capture_output=True,
+        text=True,
+        timeout=300,
     )
     assert run.stdout.startswith("interrupted True True 1 0"), run.stdout + run.stderr

@@ -21,6 +21,9 @@ from typing import NamedTuple
 from ..mesh.jit import inlined, jit
 from ..mesh.points import cross, dot, subtract
 
+# An angle of which the sign is clear without an `atan2` is farther from zero than this (radians).
+CLEAR = 1e-6
+
 
 class Turn(NamedTuple):
     """An angle in [0, pi] as a complex number r + i s with s >= 0, of any length but zero."""
@@ -101,3 +104,16 @@ def difference(one, other):
 def radians(total):
     """Return the value of a sum of angles, or of a difference of two."""
     return math.pi * total.half_turns + math.atan2(total.s, total.r)
+
+
+@inlined
+def rough(total):
+    """Return a number that compares as `radians` does with numbers between -CLEAR and CLEAR.
+
+    It is the same number where it is not farther from zero than that.
+    """
+    if total.half_turns == 0.0:
+        sine = total.s / (abs(total.r) + abs(total.s))
+        if abs(sine) > CLEAR:
+            return sine
+    return radians(total)

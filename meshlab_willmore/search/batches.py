@@ -1,14 +1,16 @@
 """Scores for the greedy search in rounds: the rank of each edge of a list, many at a time."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from ..energy import willmore
-from ..energy.angles import radians
+from ..energy.angles import AngleSum, radians, rough
 from ..mesh.halfedge import is_free
 from ..mesh.jit import at, generic, jit
 from .board import forbid
 from .heap import NEVER
-from .lanes import JUDGE, LANES, RANKING, drop_at, empty_lanes, fill, find_drops, is_positive
+from .lanes import LANES, copy_lane, drop_at, empty_lanes, fill, find_drops, is_positive
 from .scoring import gain_of
 
 
@@ -42,20 +44,58 @@ def score_each(board, start, stop, cost_reduction):
                 _note(board, h, gain, change)
 
 
+class Batch(NamedTuple):
+    """Edges in lanes: the rows of `empty_lanes`, the edge of each lane, half of its gain if known.
+
+    Half of the gain is kept as what an `AngleSum` is made of, (LANES, 3): most are never needed.
+    """
+
+    rows: np.ndarray
+    edges: np.ndarray
+    gains: np.ndarray
+
+
+@jit
+def _empty_batch():
+    return Batch(empty_lanes(), np.empty(LANES, np.int32), np.empty((LANES, 3)))
+
+
 @generic
-def _score_lanes(board, rows, edges, count, drop, judge):
-    """Score the `count` edges that were filled into the lanes."""
-    find_drops(rows, drop, RANKING)
-    if judge is not None:
-        find_drops(rows, judge, JUDGE)
+def _rank_batch(board, batch, count, drop, judge, helpful, waiting):
+    """Score the first `count` edges of a batch; judge those that help once a batch of them waits.
+
+    Returns
+    -------
+    int
+        How many wait, in the batch `helpful`; there were `waiting`.
+    """
+    find_drops(batch.rows, drop)
     for lane in range(count):
-        angles = drop_at(rows, RANKING, lane)
+        angles = drop_at(batch.rows, lane)
         if not is_positive(angles):
             continue
-        change = 0.0
-        if judge is not None:
-            change = 2.0 * radians(drop_at(rows, JUDGE, lane))
-        _note(board, edges[lane], 2.0 * radians(angles), change)
+        if judge is None:
+            _note(board, batch.edges[lane], 2.0 * radians(angles), 0.0)
+            continue
+        copy_lane(batch.rows, lane, helpful.rows, waiting)
+        helpful.edges[waiting], helpful.gains[waiting] = batch.edges[lane], angles
+        waiting += 1
+        if waiting == LANES:
+            _judge_batch(board, helpful, waiting, judge)
+            waiting = 0
+    return waiting
+
+
+@generic
+def _judge_batch(board, helpful, count, judge):
+    """Note the first `count` edges of a batch, of which the gain is known."""
+    find_drops(helpful.rows, judge)
+    for lane in range(count):
+        change = 2.0 * rough(drop_at(helpful.rows, lane))
+        if not (board.rules.monotone and change < -board.rules.tie):
+            gain = helpful.gains[lane]
+            total = AngleSum(gain[0], gain[1], gain[2])
+            _note(board, helpful.edges[lane], 2.0 * radians(total), change)
 
 
 @generic
@@ -70,17 +110,18 @@ def score_in_lanes(board, start, stop, drop, judge):
         What half of the cost reduction is, and half of what the Willmore energy drops by, as
         `meshlab_willmore.energy.willmore.drop`. A judge of None: nothing is asked of that.
     """
-    rows, edges, count = empty_lanes(), np.empty(LANES, np.int32), 0
+    batch, helpful, count, waiting = _empty_batch(), _empty_batch(), 0, 0
     for place in range(start, stop):
         h = board.touched[at(place)]
         forbid(board, h)
         if not is_free(board.mesh, h):
             continue
-        fill(rows, count, board.mesh, h)
-        edges[count] = h
+        fill(batch.rows, count, board.mesh, h)
+        batch.edges[count] = h
         count += 1
         if count == LANES:
-            _score_lanes(board, rows, edges, count, drop, judge)
+            waiting = _rank_batch(board, batch, count, drop, judge, helpful, waiting)
             count = 0
-    if count:
-        _score_lanes(board, rows, edges, count, drop, judge)
+    waiting = _rank_batch(board, batch, count, drop, judge, helpful, waiting)
+    if judge is not None:
+        _judge_batch(board, helpful, waiting, judge)

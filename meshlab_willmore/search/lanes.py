@@ -15,11 +15,11 @@ from ..mesh.jit import generic, inlined, jit
 from ..mesh.points import Point
 
 LANES = 64
-# Rows: x, y, z of i, j, k, l and of the four points outside, whether these exist, the results.
+# Rows: x, y, z of i, j, k, l and of the four points outside, whether these exist, the drop.
 _OUTSIDE = 12
 _EXISTS = 24
-RANKING, JUDGE = 28, 31
-_ROWS = 34
+_DROP = 28
+_ROWS = 31
 
 
 # Unsigned, as an index must be to spare the question whether it counts from the end.
@@ -105,9 +105,18 @@ def _sides(rows, lane):
     )
 
 
+@inlined
+def copy_lane(rows, lane, others, place):
+    """Write what stands in a lane of `rows` into lane `place` of `others`."""
+    source, target = np.uint64(lane), np.uint64(place)
+    for row in range(_DROP):
+        first = np.uint64(row * LANES)
+        others[first + target] = rows[first + source]
+
+
 @generic
-def find_drops(rows, drop, result):
-    """Write the drop of each lane into the three rows from `result` on.
+def find_drops(rows, drop):
+    """Write the drop of each lane into the last three rows.
 
     Parameters
     ----------
@@ -116,23 +125,21 @@ def find_drops(rows, drop, result):
         no harm.
     drop : callable
         Jitted function of a Diamond and its Sides, as `meshlab_willmore.energy.willmore.drop`.
-    result : int
-        `RANKING` or `JUDGE`.
     """
     for lane in range(LANES):
         angles = drop(_quad(rows, lane), _sides(rows, lane))
-        rows[result * LANES + lane] = angles.r
-        rows[(result + 1) * LANES + lane] = angles.s
-        rows[(result + 2) * LANES + lane] = angles.half_turns
+        rows[_DROP * LANES + lane] = angles.r
+        rows[(_DROP + 1) * LANES + lane] = angles.s
+        rows[(_DROP + 2) * LANES + lane] = angles.half_turns
 
 
 @inlined
-def drop_at(rows, result, lane):
+def drop_at(rows, lane):
     """Return the drop that `find_drops` has found for a lane, as an AngleSum."""
     return AngleSum(
-        rows[result * LANES + lane],
-        rows[(result + 1) * LANES + lane],
-        rows[(result + 2) * LANES + lane],
+        rows[_DROP * LANES + lane],
+        rows[(_DROP + 1) * LANES + lane],
+        rows[(_DROP + 2) * LANES + lane],
     )
 
 

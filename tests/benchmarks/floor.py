@@ -19,7 +19,7 @@ import numpy as np
 
 from meshlab_willmore import optimize
 from meshlab_willmore.energy import virtual, willmore
-from meshlab_willmore.energy.angles import radians
+from meshlab_willmore.energy.angles import radians, rough
 from meshlab_willmore.energy.kinds import KINDS
 from meshlab_willmore.guards import space as spaces
 from meshlab_willmore.mesh.build import build
@@ -30,9 +30,7 @@ from meshlab_willmore.mesh.workers import crew
 from meshlab_willmore.search import entries
 from meshlab_willmore.search.board import board_of
 from meshlab_willmore.search.lanes import (
-    JUDGE,
     LANES,
-    RANKING,
     drop_at,
     empty_lanes,
     fill,
@@ -48,10 +46,15 @@ NANO = 1e-9
 
 
 class Ready(NamedTuple):
-    """Numbers of whole blocks of edges, (blocks, rows), and room for the results (edges, 2)."""
+    """Numbers of whole blocks of edges, (blocks, rows), and room for results.
+
+    `helpful` has those that the energy is in favour of, which the judge is asked about.
+    """
 
     rows: np.ndarray
-    results: np.ndarray
+    helpful: np.ndarray
+    ranks: np.ndarray
+    gains: np.ndarray
 
 
 @jit
@@ -62,18 +65,34 @@ def gather(mesh, edges, rows):
 
 
 @jit
+def find_helpful(rows, edges):
+    """Return those of the edges, gathered in `rows`, that the energy is in favour of."""
+    is_helpful = np.zeros(len(edges), np.bool_)
+    for block in range(len(rows)):
+        find_drops(rows[block], virtual.drop)
+        for lane in range(LANES):
+            is_helpful[block * LANES + lane] = is_positive(drop_at(rows[block], lane))
+    return edges[is_helpful]
+
+
+@jit
 def compute(ready, start, stop):
     """Find the cost reductions of the edges from `start` up to `stop`, which begins a block."""
-    for block in range(start // LANES, stop // LANES):
+    first, last = start // LANES, stop // LANES
+    for block in range(first, last):
         rows = ready.rows[block]
-        find_drops(rows, virtual.drop, RANKING)
-        find_drops(rows, willmore.drop, JUDGE)
+        find_drops(rows, virtual.drop)
         for lane in range(LANES):
-            angles = drop_at(rows, RANKING, lane)
-            if is_positive(angles):
-                result = ready.results[block * LANES + lane]
-                result[0] = 2.0 * radians(angles)
-                result[1] = 2.0 * radians(drop_at(rows, JUDGE, lane))
+            ready.ranks[block, lane] = is_positive(drop_at(rows, lane))
+    # As large a part of the helpful ones.
+    blocks, helpful = len(ready.rows), len(ready.helpful)
+    for block in range(first * helpful // blocks, last * helpful // blocks):
+        rows = ready.helpful[block]
+        find_drops(rows, willmore.drop)
+        for lane in range(LANES):
+            change = rough(drop_at(rows, lane))
+            if change > 0.0:
+                ready.gains[block, lane] = radians(drop_at(rows, lane))
 
 
 @jit
@@ -108,9 +127,17 @@ def prepared(points):
     board = board_of(mesh, rules, spaces.no_space())
     edges = free_edges(mesh, board.touched)
     edges = edges[: len(edges) // LANES * LANES]
-    ready = Ready(np.zeros((len(edges) // LANES, len(empty_lanes()))), np.zeros((len(edges), 2)))
-    gather(mesh, edges, ready.rows)
-    return board, ready, edges
+    rows = blocks_of(mesh, edges)
+    helpful = blocks_of(mesh, find_helpful(rows, edges))
+    ranks, gains = np.zeros((len(rows), LANES)), np.zeros((len(helpful), LANES))
+    return board, Ready(rows, helpful, ranks, gains), edges
+
+
+def blocks_of(mesh, edges):
+    """Return the numbers of whole blocks of the edges."""
+    rows = np.zeros((len(edges) // LANES, len(empty_lanes())))
+    gather(mesh, edges[: len(rows) * LANES], rows)
+    return rows
 
 
 def main(arguments):

@@ -7,7 +7,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from meshlab_willmore.energy.angles import NO_ANGLES, Turn, add, angle, radians, turn
+from meshlab_willmore.energy.angles import (
+    CLEAR,
+    NO_ANGLES,
+    AngleSum,
+    Turn,
+    add,
+    angle,
+    radians,
+    rough,
+    turn,
+)
 from meshlab_willmore.mesh.points import Point
 from tests import reference
 
@@ -105,3 +115,20 @@ def test_half_turns_are_counted_exactly(count):
 
 def test_an_undefined_angle_makes_the_sum_undefined():
     assert math.isnan(radians(add(add(NO_ANGLES, Turn(math.nan, math.nan)), Turn(0.0, 1.0))))
+
+
+@pytest.mark.parametrize("half_turns", [-2.0, -1.0, 0.0, 1.0])
+def test_a_rough_value_compares_as_the_true_one_with_small_numbers(half_turns):
+    close = [0.0, 1e-12, 3e-7, 0.9e-6, 1.1e-6, 1e-3, 0.5, 1.5, 2.0, 3.0, math.pi - 1e-9]
+    for value in [*close, *(-x for x in close)]:
+        total = AngleSum(0.3 * math.cos(value), 0.3 * math.sin(value), half_turns)
+        true, found = radians(total), rough(total)
+        assert found == true or (abs(true) > CLEAR and found * true > 0.0)
+        assert [found < x for x in (-CLEAR, -1e-12, 0.0, 1e-12, CLEAR)] == [
+            true < x for x in (-CLEAR, -1e-12, 0.0, 1e-12, CLEAR)
+        ]
+
+
+def test_an_undefined_rough_value_stays_so():
+    assert math.isnan(rough(AngleSum(math.nan, math.nan, 0.0)))
+    assert math.isnan(rough(AngleSum(math.nan, math.nan, 1.0)))

@@ -12,6 +12,10 @@ from .pairs import Pairs, no_pairs
 from .rules import Rules
 from .waiting import Waiting, nothing_waits
 
+# Half-edges of a block, of which all are looked through if one is touched.
+BLOCK_BITS = 9
+BLOCK = 1 << BLOCK_BITS
+
 
 class Board(NamedTuple):
     """What the search knows of a mesh of 3 m half-edges and n vertices; changed in place.
@@ -33,8 +37,12 @@ class Board(NamedTuple):
         that of the next two.
     touched, watched : (e,) int32
         The edges to be scored; those that may be peaks now.
-    is_listed, is_touched, is_watched : (3 m,) bool
-        The edges in these lists.
+    is_listed, is_watched : (3 m,) bool
+        The edges among the candidates and the watched.
+    is_touched : (3 m,) bool
+        The edges that are to be put into their list.
+    has_touched : (3 m / BLOCK + 1,) bool
+        Whether any of each `BLOCK` half-edges is to be.
     done : (m,) int32
         The peaks of this round: from the front those that were flipped, from the back those that
         must not be flipped.
@@ -61,6 +69,7 @@ class Board(NamedTuple):
     watched: np.ndarray
     is_listed: np.ndarray
     is_touched: np.ndarray
+    has_touched: np.ndarray
     is_watched: np.ndarray
     done: np.ndarray
     taken: np.ndarray
@@ -87,6 +96,7 @@ def board_of(mesh, rules, space):
         watched=np.empty(len(edges), np.int32),
         is_listed=np.zeros(size, np.bool_),
         is_touched=np.zeros(size, np.bool_),
+        has_touched=np.zeros((size >> BLOCK_BITS) + 1, np.bool_),
         is_watched=np.zeros(size, np.bool_),
         done=np.empty(faces, np.int32),
         taken=np.zeros(len(mesh.vertices) if rules.is_wide else 0, np.bool_),
@@ -108,52 +118,24 @@ def forbid(board, h):
         board.rank[at(t)] = NEVER
 
 
-class Pad(NamedTuple):
-    """What `touch` and `watch` need: the board, and in `size` (1,) how long the list is."""
-
-    mesh: Mesh
-    board: Board
-    size: np.ndarray
-
-
 @jit
-def touch(pad, h, _):
-    """Put the edge of `h` among those to be scored."""
-    board, t = pad.board, pad.mesh.twin[at(h)]
+def touch(board, h, _):
+    """Mark the edge of `h` as one to be scored; threads may do that side by side."""
+    t = board.mesh.twin[at(h)]
     if t == NONE:
         board.rank[at(h)] = NEVER
         return
     low = min(h, t)
-    if not board.is_touched[at(low)]:
-        put(pad, low)
+    board.is_touched[at(low)] = True
+    board.has_touched[at(low >> BLOCK_BITS)] = True
 
 
-@jit
-def put(pad, low):
-    """Put an edge that is not there into the list of those to be scored."""
-    pad.board.is_touched[at(low)] = True
-    pad.board.touched[at(pad.size[0])] = low
-    pad.size[0] += 1
-
-
-class Row(NamedTuple):
-    """What `note` needs: the board, a row for edges (13,), and in `size` (1,) how many it has."""
+class Pad(NamedTuple):
+    """What `watch` needs: the board, and in `size` (1,) how long the list is."""
 
     mesh: Mesh
     board: Board
-    edges: np.ndarray
     size: np.ndarray
-
-
-@jit
-def note(row, h, _):
-    """Write the edge of `h` into the row, or nothing where it is none."""
-    t = row.mesh.twin[at(h)]
-    if t == NONE:
-        row.board.rank[at(h)] = NEVER
-        return
-    row.edges[at(row.size[0])] = min(h, t)
-    row.size[0] += 1
 
 
 @jit

@@ -3,15 +3,13 @@
 They are kept in order, slice by slice, so that nothing depends on how work is shared.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
 from ..mesh.halfedge import NONE, previous
 from ..mesh.jit import at, jit
 from ..mesh.workers import PIECE
 from . import board as boards
-from .board import Board, Pad, Row
+from .board import Pad
 from .heap import NEVER
 from .pairs import contains
 from .touched import visit_around, visit_fans, visit_freed
@@ -19,79 +17,68 @@ from .waiting import leave
 
 # Items of work that is done in order between two looks at the keyboard.
 SLICE = 16 * PIECE
-# An edge and those whose cost reduction its flip changes.
-MOST_AROUND = 13
 
 
 @jit
-def _touch_waiting(pad, face):
-    """Touch the edges that have waited for a change of `face`."""
-    waiting = pad.board.waiting
-    h = np.int64(waiting.first[face])
-    while h != NONE:
-        leave(waiting, h)
-        boards.touch(pad, h, None)
-        h = np.int64(waiting.first[face])
-
-
-class Slots(NamedTuple):
-    """A board and, for each flip of a round, room for the edges around it: (flips, 13) int32."""
-
-    board: Board
-    edges: np.ndarray
-
-
-@jit
-def find_around(slots, start, stop):
-    """Write down the edges around the flips from `start` up to `stop` of this round.
+def touch_around(board, start, stop):
+    """Touch the edges that the flips from `start` up to `stop` of this round touch.
 
     All flips of the round must be done: they move edges to other half-edges.
     """
-    board, size = slots.board, np.zeros(1, np.int64)
-    for place in range(start, stop):
-        row = slots.edges[at(place)]
-        row[:] = NONE
-        size[0] = 0
-        visit_around(Row(board.mesh, board, row, size), board.done[at(place)], boards.note, None)
-
-
-@jit
-def touch(slots, start, stop, size):
-    """Put the edges that the flips from `start` up to `stop` of this round touch into the list.
-
-    Returns
-    -------
-    int
-        The new `size` of the list.
-    """
-    board, mesh = slots.board, slots.board.mesh
-    pad = Pad(mesh, board, np.array([size]))
+    mesh = board.mesh
     for place in range(start, stop):
         h = np.int64(board.done[at(place)])
         t = np.int64(mesh.twin[at(h)])
         if board.rules.is_wide:
-            visit_fans(pad, h, boards.touch, None)
+            visit_fans(board, h, boards.touch, None)
             for corner in (h, t, previous(h), previous(t)):
                 board.taken[mesh.origin[corner]] = False
         else:
-            for low in slots.edges[at(place)]:
-                if low != NONE and not board.is_touched[at(low)]:
-                    boards.put(pad, low)
+            visit_around(board, h, boards.touch, None)
         i, j = mesh.origin[at(previous(h))], mesh.origin[at(previous(t))]
         if contains(board.awaited, i, j):
-            visit_freed(pad, h, boards.touch, None)
-        if board.space.active:
-            _touch_waiting(pad, h // 3)
-            _touch_waiting(pad, t // 3)
-    return pad.size[0]
+            visit_freed(board, h, boards.touch, None)
+
+
+@jit
+def _touch_waiting(board, start, stop, value):
+    """Touch the edges that have waited for a change of the faces of these flips."""
+    waiting = board.waiting
+    for place in range(start, stop):
+        flipped = np.int64(board.done[at(place)])
+        for face in (flipped // 3, np.int64(board.mesh.twin[at(flipped)]) // 3):
+            while waiting.first[face] != NONE:
+                h = np.int64(waiting.first[face])
+                leave(waiting, h)
+                boards.touch(board, h, None)
+    return value
+
+
+@jit
+def _list_touched(board):
+    """Put the touched edges into their list, by number; return how many there are."""
+    size, found = 0, np.empty(boards.BLOCK + 1, np.int32)
+    for block in range(len(board.has_touched)):
+        if not board.has_touched[at(block)]:
+            continue
+        board.has_touched[at(block)] = False
+        # Without a branch: whether an edge is touched is anyone's guess.
+        count, first = 0, block << boards.BLOCK_BITS
+        for h in range(first, min(first + boards.BLOCK, len(board.is_touched))):
+            found[at(count)] = h
+            count += board.is_touched[at(h)]
+            board.is_touched[at(h)] = False
+        board.touched[size : size + count] = found[:count]
+        size += count
+    return size
 
 
 def touch_all(board, flipped, share):
-    """Touch what the flips of this round have touched; return the number of edges."""
-    rows = 0 if board.rules.is_wide else flipped
-    slots = Slots(board, np.empty((rows, MOST_AROUND), np.int32))
-    share(find_around, slots, rows)
-    return in_slices(touch, slots, flipped, 0)
+    """List the edges that the `flipped` flips of this round touch; return how many there are."""
+    share(touch_around, board, flipped)
+    if board.space.active:
+        in_slices(_touch_waiting, board, flipped, 0)
+    return _list_touched(board)
 
 
 @jit
@@ -125,7 +112,6 @@ def add_candidates(board, start, stop, count):
     """
     for place in range(start, stop):
         h = board.touched[at(place)]
-        board.is_touched[at(h)] = False
         if board.rank[at(h)] > NEVER and not board.is_listed[at(h)]:
             board.is_listed[at(h)] = True
             board.candidates[at(count)] = h

@@ -117,6 +117,24 @@ def two_triangles():
     return vertices, np.array([(0, 1, 2), (1, 0, 3)], np.int32)
 
 
+def bipyramid(count):
+    """A ring of `count` points and two poles: each edge of the ring would become pole to pole."""
+    turns = 2 * np.pi * np.arange(count) / count
+    ring = np.column_stack([np.cos(turns), np.sin(turns), np.zeros(count)])
+    after = (np.arange(count) + 1) % count
+    top = np.column_stack([np.arange(count), after, np.full(count, count)])
+    bottom = np.column_stack([after, np.arange(count), np.full(count, count + 1)])
+    vertices = np.vstack([ring, [(0, 0, 0.1), (0, 0, -0.1)]])
+    return vertices, np.vstack([top, bottom]).astype(np.int32)
+
+
+def hubs(count=80):
+    """A bipyramid with the poles first, and its faces in no order."""
+    vertices, faces = bipyramid(count)
+    faces = np.random.default_rng(0).permutation((faces + 2) % len(vertices))
+    return np.roll(vertices, 2, axis=0), faces.astype(np.int32)
+
+
 def moebius_band(count=12):
     """A band of `count` squares with half a twist: it has no consistent orientation."""
     angle = 2.0 * np.pi * np.arange(count) / count

@@ -8,6 +8,7 @@ from ..mesh.jit import jit
 from ..mesh.points import angle_between, dot, norm, normal, subtract
 
 FLAT_ANGLE = 180.0
+RIGHT_ANGLE = 0.5 * math.pi
 SHAPE_OF_EQUILATERAL = 2.0 * math.sqrt(3.0)
 
 
@@ -64,10 +65,13 @@ def folds(mesh, h, limits):
     if not limits.active:
         return False
     i, j, k, l = diamond(mesh, h)
-    before = angle_between(normal(i, j, k), normal(j, i, l))
-    after = angle_between(normal(k, i, l), normal(l, j, k))
-    if after > max(before, limits.angle) + limits.slack:
-        return True
-    worse_before = min(triangle_shape(i, j, k), triangle_shape(j, i, l))
+    one, other = normal(k, i, l), normal(l, j, k)
+    # Most new edges are blunt enough for every limit that is a right angle or more.
+    if limits.angle < RIGHT_ANGLE or not dot(one, other) >= 0.0:
+        before = angle_between(normal(i, j, k), normal(j, i, l))
+        if angle_between(one, other) > max(before, limits.angle) + limits.slack:
+            return True
     worse_after = min(triangle_shape(k, i, l), triangle_shape(l, j, k))
-    return worse_after < min(worse_before, limits.shape)
+    if worse_after >= limits.shape:
+        return False
+    return worse_after < min(triangle_shape(i, j, k), triangle_shape(j, i, l))

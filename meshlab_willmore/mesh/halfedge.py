@@ -26,6 +26,8 @@ from .jit import at, inlined, jit
 from .points import Point, norm, point, subtract
 
 NONE = -1
+# To walk round a vertex with so many edges costs next to nothing.
+FEW_EDGES = 16
 
 
 class Mesh(NamedTuple):
@@ -122,7 +124,7 @@ def next_in_fan(mesh, h):
     return h
 
 
-@jit
+@inlined
 def _has_corner(mesh, h, v):
     """Tell whether `v` is one of the two vertices opposite to the origin of `h` in its face."""
     return mesh.origin[at(following(h))] == v or mesh.origin[at(previous(h))] == v
@@ -132,13 +134,25 @@ def _has_corner(mesh, h, v):
 def are_joined(mesh, a, b):
     """Tell whether an edge joins the origins of the half-edges `a` and `b`; also if in doubt.
 
-    The fans of both are walked in step until one is through, so that a vertex with a great many
-    edges does no harm. That is exact: where the faces at a vertex form a single fan, each edge of
-    the vertex belongs to a face of that fan. If both vertices have several fans, the answer is yes.
+    That is exact: where the faces at a vertex form a single fan, each edge of the vertex belongs to
+    a face of that fan. If both vertices have several fans, the answer is yes. Nearly always a few
+    steps round the first vertex tell. Otherwise the fans of both are walked in step until one is
+    through, so that a vertex with a great many edges does no harm.
     """
-    u, v = mesh.origin[a], mesh.origin[b]
-    if mesh.several_fans[u] and mesh.several_fans[v]:
+    u, v = mesh.origin[at(a)], mesh.origin[at(b)]
+    if mesh.several_fans[at(u)] and mesh.several_fans[at(v)]:
         return True
+    if not mesh.several_fans[at(u)]:
+        x = a
+        for _ in range(FEW_EDGES):
+            if _has_corner(mesh, x, v):
+                return True
+            t = mesh.twin[at(x)]
+            if t == NONE:
+                break
+            x = following(t)
+            if x == a:
+                return False
     x, y = a, b
     while True:
         if _has_corner(mesh, x, v) or _has_corner(mesh, y, u):

@@ -54,8 +54,10 @@ def test_a_flip_to_a_sharper_edge_is_a_fold():
     assert guards.folds(mesh, 0, guards.fold_limits(179.9))
 
 
-def test_a_new_edge_may_be_as_sharp_as_the_old_one_and_as_the_limit():
+@pytest.mark.parametrize("limit", [20.0, 90.0, 120.0])
+def test_a_new_edge_may_be_as_sharp_as_the_old_one_and_as_the_limit(limit):
     mesh = build(*meshes.bumpy_sphere(60, bump=0.6))
+    limits = guards.fold_limits(limit)
     for h in range(len(mesh.origin)):
         if not can_flip(mesh, h):
             continue
@@ -64,8 +66,8 @@ def test_a_new_edge_may_be_as_sharp_as_the_old_one_and_as_the_limit():
         after = guards.dihedral_angle(mesh, h)
         for _ in range(3):
             flip(mesh, h)
-        no_shape = ON._replace(shape=0.0)
-        assert guards.folds(mesh, h, no_shape) == (after > max(before, math.pi / 2))
+        no_shape = limits._replace(shape=0.0)
+        assert guards.folds(mesh, h, no_shape) == (after > max(before, limits.angle))
         assert not guards.folds(mesh, h, no_shape._replace(angle=after - 1e-12))
 
 

@@ -26,6 +26,8 @@ MIXED = [
     meshes.fin()[:2],
     meshes.bow_tie(),
     meshes.cube(),
+    meshes.hubs(),
+    (meshes.hubs()[0], meshes.hubs()[1][5:]),
 ]
 
 

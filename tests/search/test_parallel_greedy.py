@@ -183,17 +183,6 @@ def test_the_order_of_the_flips_of_a_round_does_not_matter(energy, seed):
     assert done.gain == pytest.approx(math.fsum(gains), rel=1e-12)
 
 
-def bipyramid(count):
-    """A ring of `count` points and two poles: each edge of the ring would become pole to pole."""
-    turns = 2 * np.pi * np.arange(count) / count
-    ring = np.column_stack([np.cos(turns), np.sin(turns), np.zeros(count)])
-    after = (np.arange(count) + 1) % count
-    top = np.column_stack([np.arange(count), after, np.full(count, count)])
-    bottom = np.column_stack([after, np.arange(count), np.full(count, count + 1)])
-    vertices = np.vstack([ring, [(0, 0, 0.1), (0, 0, -0.1)]])
-    return vertices, np.vstack([top, bottom]).astype(np.int32)
-
-
 def with_ranks(mesh, ranks, space=None):
     """A board on which just these edges have a rank."""
     board = board_of(mesh, rules_for("willmore", FREE), no_space() if space is None else space)
@@ -204,7 +193,7 @@ def with_ranks(mesh, ranks, space=None):
 
 @pytest.mark.parametrize("larger", [0, 1])
 def test_of_two_flips_to_the_same_edge_the_smaller_waits_until_it_is_gone(larger):
-    mesh = build(*bipyramid(8))
+    mesh = build(*meshes.bipyramid(8))
     ring = [h for h in edges_of(mesh) if flipped_ends(mesh, h) == {8, 9}]
     assert len(ring) == 8
     two = ring[0], ring[4]

@@ -9,9 +9,10 @@ from typing import NamedTuple
 import numpy as np
 
 from .energy import area, mean_curvature
+from .energy.angles import NO_ANGLES, add
 from .energy.gaussian_curvature import angle_defects
 from .energy.triangles import corners
-from .energy.willmore import edge_angle
+from .energy.willmore import edge_angle, edge_turn
 from .guards import triangle_shape
 from .guards.cuts import mark_cuts
 from .guards.space import space_of
@@ -19,11 +20,13 @@ from .mesh.build import build, interior_vertices
 from .mesh.halfedge import Mesh
 from .mesh.jit import at, jit
 from .mesh.validate import check_mesh, in_input_units, to_unit_scale
-from .mesh.workers import crew
+from .mesh.workers import PIECE, crew
 
 FULL_TURN = 2.0 * math.pi
 # Faces between two looks at the keyboard.
 SLICE = 20_000
+# Angles that are multiplied as complex numbers before these get too small.
+MOST_PRODUCTS = 64
 
 
 class Measures(NamedTuple):
@@ -214,7 +217,14 @@ def self_intersections(vertices, faces):
 
 def willmore_energy_of(mesh):
     """Return the Willmore energy of a half-edge mesh, as `willmore_energy` does."""
-    return float(_vertex_energy(mesh).sum())
+    pieces = -(-len(mesh.origin) // PIECE)
+    task = _Parts(mesh, interior_vertices(mesh), np.zeros(pieces), np.zeros(pieces))
+    with crew() as share:
+        share(_add_angles, task, len(mesh.origin))
+    half_turns = task.half_turns.sum() - 2.0 * np.count_nonzero(task.interior)
+    energy = float(math.pi * half_turns + task.rest.sum())
+    # Undefined angles leave out single vertices.
+    return energy if math.isfinite(energy) else float(_vertex_energy(mesh).sum())
 
 
 def _unit_mesh(vertices, faces):
@@ -222,6 +232,43 @@ def _unit_mesh(vertices, faces):
     vertices, faces = check_mesh(vertices, faces)
     scaled, exponent = to_unit_scale(vertices, faces)
     return build(scaled, faces), exponent
+
+
+class _Parts(NamedTuple):
+    """A mesh, its interior vertices, and for each piece of its half-edges a sum of angles.
+
+    The angles of the edges of these vertices, at each of them, make ``pi * half_turns + rest``.
+    """
+
+    mesh: Mesh
+    interior: np.ndarray
+    half_turns: np.ndarray
+    rest: np.ndarray
+
+
+@jit
+def _add_angles(task, start, stop):
+    """Sum the angles of the half-edges from `start` up to `stop`, the lower of twins."""
+    mesh, half_turns, rest = task.mesh, 0.0, 0.0
+    angles, products = NO_ANGLES, 0
+    for h in range(start, stop):
+        t = mesh.twin[at(h)]
+        if h > t:
+            continue
+        ends = task.interior[at(mesh.origin[at(h)])] + task.interior[at(mesh.origin[at(t)])]
+        if ends == 0:
+            continue
+        beta = edge_turn(mesh, h)
+        angles = add(angles, beta)
+        if ends == 2:
+            angles = add(angles, beta)
+        products += 1
+        if products == MOST_PRODUCTS:
+            half_turns += angles.half_turns
+            rest += math.atan2(angles.s, angles.r)
+            angles, products = NO_ANGLES, 0
+    task.half_turns[start // PIECE] = half_turns + angles.half_turns
+    task.rest[start // PIECE] = rest + math.atan2(angles.s, angles.r)
 
 
 class _Angles(NamedTuple):

@@ -14,7 +14,7 @@ import math
 from ..mesh.halfedge import diamond
 from ..mesh.jit import inlined, jit
 from ..mesh.points import subtract
-from .angles import angle, difference, radians
+from .angles import angle, difference, radians, turn
 from .sides import View, Views, side_angles, sides_of
 
 
@@ -80,6 +80,13 @@ def cost_reduction(mesh, h):
     """
     gain = 2.0 * radians(drop(diamond(mesh, h), sides_of(mesh, h)))
     return gain if math.isfinite(gain) else -math.inf
+
+
+@inlined
+def edge_turn(mesh, h):
+    """Return the intersection angle at `h`, which has a twin, as a complex number."""
+    i, j, k, l = diamond(mesh, h)
+    return turn(subtract(i, k), subtract(j, k), subtract(i, l), subtract(j, l))
 
 
 @jit

@@ -1,9 +1,15 @@
 """From faces to half-edge connectivity, and the check that it is sound."""
 
+from typing import NamedTuple
+
 import numpy as np
 
-from .halfedge import NONE, Mesh, next_in_fan
+from .halfedge import NONE, Mesh, following, next_in_fan
 from .jit import at, jit
+from .workers import crew
+
+# Half-edges of one vertex that are sorted by insertion, which takes quadratic time.
+MANY_EDGES = 64
 
 
 @jit
@@ -33,35 +39,128 @@ def sort_by_vertex(order, vertex, starts):
 
 
 @jit
-def _pair(origin, low, high, order):
-    """Return the twins, given half-edges in `order` of their end vertices `low` <= `high`."""
-    twin = np.full(len(origin), NONE, np.int32)
-    start = 0
-    while start < len(order):
-        h = order[start]
-        stop = start + 1
-        while stop < len(order) and low[order[stop]] == low[h] and high[order[stop]] == high[h]:
-            stop += 1
-        t = order[stop - 1]
-        # Two half-edges that start at the same vertex belong to faces of opposite orientation.
-        if stop - start == 2 and origin[h] != origin[t]:
-            twin[h], twin[t] = t, h
-        start = stop
-    return twin
+def _count_by_low(faces, starts):
+    """Count the half-edges of each lower end vertex v into ``starts[v + 2]``; return the most."""
+    starts[:] = 0
+    most = np.int64(0)
+    for f in range(len(faces)):
+        for c in range(3):
+            low = min(faces[at(f), at(c)], faces[at(f), at((c + 1) % 3)])
+            starts[at(low + 2)] += 1
+            most = max(most, starts[at(low + 2)])
+    return most
 
 
 @jit
-def _fan_counts(mesh, fans):
-    """Count the fans of faces around each vertex into `fans` (n,)."""
-    seen = np.zeros(len(mesh.origin), np.bool_)
-    for start in range(len(mesh.origin)):
-        if seen[start]:
+def _sort_slice(high, half_edge, start, stop):
+    """Sort a slice of two arrays by the first, stably; in linear time if it is in order."""
+    for place in range(start + 1, stop):
+        v, h, hole = high[at(place)], half_edge[at(place)], place
+        while hole > start and high[at(hole - 1)] > v:
+            high[at(hole)], half_edge[at(hole)] = high[at(hole - 1)], half_edge[at(hole - 1)]
+            hole -= 1
+        high[at(hole)], half_edge[at(hole)] = v, h
+
+
+@jit
+def _pair_slice(origin, twin, high, half_edge, start, stop):
+    """Write the twins of the half-edges from one vertex to higher ones, or back, in order."""
+    while start < stop:
+        after = start + 1
+        while after < stop and high[at(after)] == high[at(start)]:
+            after += 1
+        h, t = half_edge[at(start)], half_edge[at(after - 1)]
+        # Two half-edges that start at the same vertex belong to faces of opposite orientation.
+        if after - start == 2 and origin[at(h)] != origin[at(t)]:
+            twin[at(h)], twin[at(t)] = t, h
+        start = after
+
+
+class _Stars(NamedTuple):
+    """The half-edges of a mesh, by their lower end vertex.
+
+    Attributes
+    ----------
+    origin, twin : (3 m,) int32
+        As of a Mesh; the twins are to be found, and `NONE` before.
+    starts : (n + 2,) int64
+        Those with the lower end v stand from ``starts[v]`` up to ``starts[v + 1]``.
+    high, half_edge : (3 m,) int32
+        Their higher ends, and the half-edges themselves.
+    """
+
+    origin: np.ndarray
+    twin: np.ndarray
+    starts: np.ndarray
+    high: np.ndarray
+    half_edge: np.ndarray
+
+
+@jit
+def _fill_stars(stars, order):
+    """Write the half-edges, in this order, to their lower end vertices; `starts` has the counts."""
+    origin, starts = stars.origin, stars.starts
+    for v in range(1, len(starts)):
+        starts[at(v)] += starts[at(v - 1)]
+    for place in range(len(order)):
+        h = order[at(place)]
+        u, v = origin[at(h)], origin[at(following(h))]
+        slot = starts[at(min(u, v) + 1)]
+        stars.high[at(slot)], stars.half_edge[at(slot)] = max(u, v), h
+        starts[at(min(u, v) + 1)] = slot + 1
+
+
+@jit
+def _pair(stars, first, last):
+    """Write the twins of the half-edges with a lower end from `first` up to `last`."""
+    for v in range(first, last):
+        start, stop = stars.starts[at(v)], stars.starts[at(v + 1)]
+        _sort_slice(stars.high, stars.half_edge, start, stop)
+        _pair_slice(stars.origin, stars.twin, stars.high, stars.half_edge, start, stop)
+
+
+def _stars(faces, vertex_count):
+    """Return the half-edges of `faces` (m, 3) by their lower end vertex."""
+    starts = np.empty(vertex_count + 2, np.int64)
+    order = np.arange(faces.size, dtype=np.int32)
+    if _count_by_low(faces, starts) > MANY_EDGES:
+        order = sort_by_vertex(order, edge_ends(faces)[1], starts)
+        _count_by_low(faces, starts)
+    twin = np.full(faces.size, NONE, np.int32)
+    stars = _Stars(faces.flatten(), twin, starts, np.empty_like(twin), np.empty_like(twin))
+    _fill_stars(stars, order)
+    return stars
+
+
+class _Fans(NamedTuple):
+    """A mesh, and of each vertex the number of its corners and one half-edge, or `NONE`."""
+
+    mesh: Mesh
+    corners: np.ndarray
+    first: np.ndarray
+
+
+@jit
+def _count_corners(fans):
+    """Fill in the corners and the half-edge of each vertex."""
+    for h in range(len(fans.mesh.origin)):
+        v = at(fans.mesh.origin[at(h)])
+        fans.corners[v] += 1
+        fans.first[v] = h
+
+
+@jit
+def _find_several_fans(fans, start, stop):
+    """Mark, in place, those of the vertices from `start` up to `stop` that have several fans."""
+    for v in range(start, stop):
+        h, left = fans.first[at(v)], fans.corners[at(v)]
+        if h == NONE:
             continue
-        fans[mesh.origin[start]] += 1
-        h = start
-        while not seen[h]:
-            seen[h] = True
-            h = next_in_fan(mesh, h)
+        while True:
+            h, left = next_in_fan(fans.mesh, h), left - 1
+            if h == fans.first[at(v)]:
+                break
+        fans.mesh.several_fans[at(v)] = left > 0
 
 
 def edge_ends(faces):
@@ -112,10 +211,13 @@ def in_old_slots(mesh, order):
 
 @jit
 def _put_back(mesh, order, faces, corners):
-    for h in range(len(mesh.origin)):
-        f, source = order[at(h // 3)], mesh.corner[at(h)]
-        faces[at(f), at(h % 3)] = mesh.origin[at(h)]
-        corners[at(f), at(h % 3)] = 3 * order[at(source // 3)] + source % 3
+    for place in range(len(order)):
+        f = at(order[at(place)])
+        for c in range(3):
+            h = at(3 * place + c)
+            source = at(mesh.corner[h])
+            faces[f, at(c)] = mesh.origin[h]
+            corners[f, at(c)] = 3 * order[source // at(3)] + np.int32(source % at(3))
 
 
 @jit
@@ -129,7 +231,7 @@ def _lowest(faces):
 def build(vertices, faces):
     """Return the half-edge mesh of checked arrays, with nothing locked.
 
-    Works in O(n + m): two counting sorts bring the half-edges of each edge together.
+    Works in O(n + m): a counting sort brings the half-edges of each edge together.
 
     Parameters
     ----------
@@ -142,17 +244,22 @@ def build(vertices, faces):
     -------
     Mesh
     """
-    origin = faces.ravel().copy()
-    low, high = edge_ends(faces)
-    starts = np.empty(len(vertices) + 2, np.int64)
-    corner = np.arange(len(origin), dtype=np.int32)
-    order = sort_by_vertex(sort_by_vertex(corner, high, starts), low, starts)
-    twin = _pair(origin, low, high, order)
-    fans = np.zeros(len(vertices), np.int32)
-    locked = np.zeros(len(origin), np.bool_)
-    mesh = Mesh(vertices, origin, twin, locked, corner, np.zeros(len(vertices), np.bool_))
-    _fan_counts(mesh, fans)
-    return mesh._replace(several_fans=fans > 1)
+    count = len(vertices)
+    with crew() as share:
+        stars = _stars(faces, count)
+        share(_pair, stars, count)
+        mesh = Mesh(
+            vertices,
+            stars.origin,
+            stars.twin,
+            locked=np.zeros(faces.size, np.bool_),
+            corner=np.arange(faces.size, dtype=np.int32),
+            several_fans=np.zeros(count, np.bool_),
+        )
+        fans = _Fans(mesh, np.zeros(count, np.int32), np.full(count, NONE, np.int32))
+        _count_corners(fans)
+        share(_find_several_fans, fans, count)
+    return mesh
 
 
 def faces_of(mesh):
@@ -160,12 +267,16 @@ def faces_of(mesh):
     return mesh.origin.reshape(-1, 3).copy()
 
 
+@jit
 def interior_vertices(mesh):
     """Return the mask (n,) of the vertices whose faces form one closed fan."""
-    interior = np.zeros(len(mesh.vertices), bool)
-    interior[mesh.origin] = True
+    interior = np.zeros(len(mesh.vertices), np.bool_)
+    for v in mesh.origin:
+        interior[at(v)] = True
     # In a fan as many half-edges without twin start as end: to look at the starts is enough.
-    interior[mesh.origin[mesh.twin == NONE]] = False
+    for h in range(len(mesh.origin)):
+        if mesh.twin[at(h)] == NONE:
+            interior[at(mesh.origin[at(h)])] = False
     return interior & ~mesh.several_fans
 
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from .jit import jit
+from .jit import at, jit
 from .points import normal, point
 
 
@@ -29,37 +29,31 @@ def vertex_normals(vertices, faces, others):
     The sums and their order are those of ``UpdateNormal::PerVertexNormalizedPerFace`` in VCG
     (``vcg/complex/algorithms/update/normal.h``), which MeshLab's planar flip ends with.
     """
-    normals = np.array(others, order="C")
-    _clear(faces, normals)
-    _add_normals(vertices, faces, normals)
-    _normalize(normals)
+    normals, has_face = np.zeros((len(vertices), 3)), np.zeros(len(vertices), np.bool_)
+    _add_normals(vertices, faces, normals, has_face)
+    _normalize(normals, has_face, np.ascontiguousarray(others))
     return normals
 
 
 @jit
-def _clear(faces, normals):
-    """Set the normals of vertices with faces to zero."""
-    for f in range(len(faces)):
-        for c in range(3):
-            normals[faces[f, c], :] = 0.0
-
-
-@jit
-def _add_normals(vertices, faces, normals):
+def _add_normals(vertices, faces, normals, has_face):
     """Add the normal of each face to those of its corners."""
     for f in range(len(faces)):
-        a, b, c = faces[f, 0], faces[f, 1], faces[f, 2]
+        a, b, c = at(faces[at(f), 0]), at(faces[at(f), 1]), at(faces[at(f), 2])
         n = normal(point(vertices, a), point(vertices, b), point(vertices, c))
         for v in (a, b, c):
             normals[v, 0] += n.x
             normals[v, 1] += n.y
             normals[v, 2] += n.z
+            has_face[v] = True
 
 
 @jit
-def _normalize(normals):
-    """Scale all normals to length 1."""
+def _normalize(normals, has_face, others):
+    """Scale the normals of vertices with faces to length 1, and fill in the other ones."""
     for v in range(len(normals)):
+        if not has_face[v]:
+            normals[v, :] = others[v, :]
         x, y, z = normals[v, 0], normals[v, 1], normals[v, 2]
         length = math.sqrt(x * x + y * y + z * z)
         if length > 0.0:

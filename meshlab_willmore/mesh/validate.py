@@ -50,9 +50,9 @@ def _check_vertices(vertices):
         raise ValueError(f"{len(vertices)} vertices are too many, at most {MOST_VERTICES} work")
     with np.errstate(over="ignore"):
         converted = np.ascontiguousarray(vertices, np.float64)
-    finite = np.isfinite(converted).all(axis=1)
+    finite = np.isfinite(converted)
     if not finite.all():
-        v = int(np.argmin(finite))
+        v = int(np.argmin(finite.all(axis=1)))
         raise ValueError(
             f"vertex {v} has a coordinate that is not finite: {converted[v].tolist()}; "
             f"{REPAIR_NOT_FINITE} remove such vertices"
@@ -82,13 +82,13 @@ def _check_faces(faces, vertex_count):
     faces = _check_indices(faces, "faces", 3)
     if len(faces) > MOST_FACES:
         raise ValueError(f"{len(faces)} faces are too many, at most {MOST_FACES} work")
-    outside = ((faces < 0) | (faces >= vertex_count)).any(axis=1)
-    if outside.any():
-        f = int(np.argmax(outside))
+    if faces.size and not 0 <= faces.min() <= faces.max() < vertex_count:
+        f = int(np.argmax(((faces < 0) | (faces >= vertex_count)).any(axis=1)))
         last = vertex_count - 1
         allowed = f"not in 0 .. {last}" if vertex_count else "wrong, there are no vertices"
         raise ValueError(f"face {f} has a vertex index that is {allowed}: {faces[f].tolist()}")
-    repeated = (faces == np.roll(faces, 1, axis=1)).any(axis=1)
+    a, b, c = faces.T
+    repeated = (a == b) | (b == c) | (c == a)
     if repeated.any():
         f = int(np.argmax(repeated))
         raise ValueError(
@@ -204,12 +204,15 @@ def to_unit_scale(vertices, faces):
         ``vertices == scaled * 2**exponent``.
     """
     used = np.zeros(len(vertices), bool)
-    used[faces] = True
-    kept = np.where(used[:, None], vertices, 0.0)
-    _, exponent = math.frexp(float(np.abs(kept).max(initial=0.0)))
+    used[faces.ravel()] = True
+    kept = vertices if used.all() else np.where(used[:, None], vertices, 0.0)
+    most = max(kept.max(initial=0.0), -kept.min(initial=0.0))
+    _, exponent = math.frexp(float(most))
     # Two steps, as 2**-exponent itself may not be a float.
     half = -exponent // 2
-    return np.ldexp(np.ldexp(kept, half), -exponent - half), exponent
+    scaled = kept * math.ldexp(1.0, half)
+    scaled *= math.ldexp(1.0, -exponent - half)
+    return scaled, exponent
 
 
 def in_input_units(value, exponent):

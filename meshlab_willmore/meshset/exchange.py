@@ -15,6 +15,7 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path, PurePosixPath
+from typing import Any
 
 import numpy as np
 import pymeshlab
@@ -89,12 +90,11 @@ def with_faces(old: Snapshot, faces: np.ndarray, corners: np.ndarray) -> Snapsho
     # Numba takes too long to import for those who don't flip.
     from ..mesh.normals import vertex_normals
 
-    records = old.ply.faces.copy()
-    records["vertex_indices"] = faces
-    records["flags"] = carry_side_bits(old.ply, faces)
-    if "texcoord" in (records.dtype.names or ()):
+    changed = {"vertex_indices": faces, "flags": carry_side_bits(old.ply, faces)}
+    if "texcoord" in (old.ply.faces.dtype.names or ()):
         wedges = old.ply.faces["texcoord"].reshape(-1, 2)
-        records["texcoord"] = wedges[corners.ravel()].reshape(-1, 6)
+        changed["texcoord"] = wedges[corners.ravel()].reshape(-1, 6)
+    records = _with_columns(old.ply.faces, changed)
     normals = vertex_normals(old.vertices, faces, old.normals)
     return old._replace(ply=old.ply._replace(faces=records), normals=normals)
 
@@ -119,8 +119,10 @@ def _part(whole: Snapshot) -> Snapshot:
 
 def _first_and_flagged(records: np.ndarray) -> np.ndarray:
     """Indices, ascending, of the first few records and of the first few with flags."""
-    flagged = np.flatnonzero(records["flags"])[:_PART_SIZE]
-    return np.union1d(np.arange(min(len(records), _PART_SIZE)), flagged)
+    first = np.arange(min(len(records), _PART_SIZE))
+    if "flags" not in (records.dtype.names or ()):
+        return first
+    return np.union1d(first, np.flatnonzero(records["flags"])[:_PART_SIZE])
 
 
 def _write(path: Path, snapshot: Snapshot) -> None:
@@ -136,16 +138,22 @@ def _write(path: Path, snapshot: Snapshot) -> None:
 
 
 def _with_columns(records: np.ndarray, columns: dict[str, np.ndarray]) -> np.ndarray:
-    """Records with more fields, and without flags if none is set; the same if nothing changes."""
-    names = [n for n in records.dtype.names or () if n != "flags" or records["flags"].any()]
-    fields = [(name, _READABLE.get(name, records.dtype[name])) for name in names]
-    fields += [(name, values.dtype) for name, values in columns.items()]
-    if np.dtype(fields) == records.dtype:
+    """Records with some fields changed or added, and without flags if none is set.
+
+    The same records if nothing changes.
+    """
+    sources = {name: records[name] for name in records.dtype.names or ()} | columns
+    if "flags" in sources and not sources["flags"].any():
+        del sources["flags"]
+    known: Any = records.dtype.fields
+    fields = []
+    for name, values in sources.items():
+        kind = known[name][0] if name in known else values.dtype
+        fields.append((name, _READABLE.get(name, kind)))
+    if not columns and np.dtype(fields) == records.dtype:
         return records
     new = np.empty(len(records), fields)
-    for name in names:
-        new[name] = records[name]
-    for name, values in columns.items():
+    for name, values in sources.items():
         new[name] = values
     return new
 

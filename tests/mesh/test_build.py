@@ -22,6 +22,8 @@ MESHES = {
     "moebius band": meshes.moebius_band(),
     "fin": meshes.fin()[:2],
     "bow tie": meshes.bow_tie(),
+    "hubs": meshes.hubs(),
+    "open hubs": (meshes.hubs()[0], meshes.hubs()[1][5:]),
     "duplicate faces": (meshes.cube()[0], np.vstack([meshes.cube()[1]] * 2)),
     "no faces": (np.zeros((4, 3)), np.empty((0, 3), np.int32)),
     "nothing": (np.zeros((0, 3)), np.empty((0, 3), np.int32)),

@@ -255,12 +255,13 @@ def _add_angles(task, start, stop):
         t = mesh.twin[at(h)]
         if h > t:
             continue
-        ends = task.interior[at(mesh.origin[at(h)])] + task.interior[at(mesh.origin[at(t)])]
-        if ends == 0:
+        start_counts = task.interior[at(mesh.origin[at(h)])]
+        end_counts = task.interior[at(mesh.origin[at(t)])]
+        if not (start_counts or end_counts):
             continue
         beta = edge_turn(mesh, h)
         angles = add(angles, beta)
-        if ends == 2:
+        if start_counts and end_counts:
             angles = add(angles, beta)
         products += 1
         if products == MOST_PRODUCTS:

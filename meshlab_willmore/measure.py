@@ -220,7 +220,7 @@ def willmore_energy_of(mesh):
     pieces = -(-len(mesh.origin) // PIECE)
     task = _Parts(mesh, interior_vertices(mesh), np.zeros(pieces), np.zeros(pieces))
     with crew() as share:
-        share(_add_angles, task, len(mesh.origin))
+        share(_add_angles, task, len(mesh.origin), PIECE)
     half_turns = task.half_turns.sum() - 2.0 * np.count_nonzero(task.interior)
     energy = float(math.pi * half_turns + task.rest.sum())
     # Undefined angles leave out single vertices.

@@ -7,25 +7,13 @@ cut each other. Cuts that the mesh has already may stay or go: their number neve
 import numpy as np
 from numba.extending import overload
 
-from ..mesh.halfedge import NONE, apex
+from ..mesh.halfedge import NONE, apex, diamond
 from ..mesh.jit import at, jit
-from .faces import count_as_cut, cut_exactly, face_of, from_corner, match
-from .space import after, faces_at, is_none, next_leaf
+from .faces import are_seen_apart, count_as_cut, cut_exactly, face_of, from_corner, match
+from .space import after, box_around, faces_at, is_none, next_leaf
 
-ANY = np.empty(0, np.int32)
-
-
-@jit
-def box_around(a, b, c, d):
-    """Return least x, y, z and largest x, y, z of four points."""
-    return (
-        min(a.x, b.x, c.x, d.x),
-        min(a.y, b.y, c.y, d.y),
-        min(a.z, b.z, c.z, d.z),
-        max(a.x, b.x, c.x, d.x),
-        max(a.y, b.y, c.y, d.y),
-        max(a.z, b.z, c.z, d.z),
-    )
+# All faces count, whenever they changed.
+EVER = 0
 
 
 @jit
@@ -59,6 +47,8 @@ def box_of(face):
 def _are_refused(one, other, area_scale):
     """Tell whether two faces count as cut."""
     common = match(one, other)
+    if are_seen_apart(one, other, common, area_scale):
+        return False
     return count_as_cut(one, other, common, area_scale) or cut_exactly(one, other, common)
 
 
@@ -73,38 +63,40 @@ def _new_faces(mesh, h):
 
 
 @jit
-def _first_cut(mesh, space, new, f, other, changed, number):
-    """Return a face that `new`, which is to be face f, cuts, or `NONE`; leave out f and `other`.
+def _first_cut(mesh, space, h, one, other, since):
+    """Return a face besides those at `h` that one of the new faces `one` and `other` cuts.
 
-    Only faces that have `changed` (m,) in the round `number`; with an empty array any.
+    Only faces that changed in the round `since` or later. `NONE` if there is none.
     """
-    any_will_do = len(changed) == 0
-    box = box_of(new)
-    node = next_leaf(space, 0, box)
+    f, g = np.int64(h // 3), np.int64(mesh.twin[at(h)] // 3)
+    box, one_box, other_box = box_around(*diamond(mesh, h)), box_of(one), box_of(other)
+    node = next_leaf(space, 0, box, since)
     while node != NONE:
         start, stop = faces_at(space, node)
         for place in range(start, stop):
             e = np.int64(space.order[at(place)])
-            if e in (f, other) or not (any_will_do or changed[at(e)] == number):
+            if e in (f, g) or space.changed[at(e)] < since:
                 continue
             near = face_at(mesh, e)
-            if boxes_meet(box_of(near), box) and _are_refused(new, near, space.area_scale):
+            near_box = box_of(near)
+            if boxes_meet(near_box, one_box) and _are_refused(one, near, space.area_scale):
                 return e
-        node = next_leaf(space, after(node), box)
+            if boxes_meet(near_box, other_box) and _are_refused(other, near, space.area_scale):
+                return e
+        node = next_leaf(space, after(node), box, since)
     return NONE
 
 
 @jit
-def _blocker(mesh, space, h, changed, number):
-    f, g = np.int64(h // 3), np.int64(mesh.twin[h] // 3)
+def _blocker(mesh, space, h, since):
     one, other = _new_faces(mesh, h)
-    if _are_refused(one, other, space.area_scale):
-        return f
-    found = _first_cut(mesh, space, one, f, g, changed, number)
-    return found if found != NONE else _first_cut(mesh, space, other, g, f, changed, number)
+    # These two are the same as ever.
+    if since == EVER and _are_refused(one, other, space.area_scale):
+        return np.int64(h // 3)
+    return _first_cut(mesh, space, h, one, other, since)
 
 
-def blocker(mesh, space, h, changed, number):
+def blocker(mesh, space, h, since):
     """Return a face that the flip of `h` would make a new face cut.
 
     Parameters
@@ -114,11 +106,10 @@ def blocker(mesh, space, h, changed, number):
         Up to date with the mesh. One that is not active refuses nothing.
     h : int
         Half-edge that `can_flip` allows.
-    changed : (m,) int32
-        The round in which each face last changed. Faces that did not in this one are left out: it
-        was asked before this round whether they would be cut. `ANY`: all count.
-    number : int
-        Number of this round.
+    since : int
+        A round of flips. Faces that did not change in it or later are left out: it was asked before
+        whether they would be cut, and whether the new faces would cut each other. `EVER`: all
+        count.
 
     Returns
     -------
@@ -126,18 +117,58 @@ def blocker(mesh, space, h, changed, number):
         `NONE` if there is none: the flip may be made. The face of `h` if the two new faces would
         cut each other. As long as this face and the two at `h` stay, the answer stays.
     """
-    return _blocker(mesh, space, h, changed, number) if space.active else NONE
+    return _blocker(mesh, space, h, since) if space.active else NONE
+
+
+@jit
+def has_rival(mesh, space, h, number, to_flip):
+    """Tell whether a new face of `h` would cut one that another flip of the same round makes.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Before the flips.
+    space : Space
+        Its boxes hold the faces before and after; `grow` has noted the round.
+    h : int
+        Half-edge.
+    number : int
+        Number of the round.
+    to_flip : (m,) int32
+        For each face that is to change in this round the half-edge that is to be flipped.
+    """
+    f, g = np.int64(h // 3), np.int64(mesh.twin[at(h)] // 3)
+    one, other = _new_faces(mesh, h)
+    box, one_box, other_box = box_around(*diamond(mesh, h)), box_of(one), box_of(other)
+    node = next_leaf(space, 0, box, number)
+    while node != NONE:
+        start, stop = faces_at(space, node)
+        for place in range(start, stop):
+            e = np.int64(space.order[at(place)])
+            if e in (f, g) or space.changed[at(e)] != number:
+                continue
+            rival = np.int64(to_flip[at(e)])
+            near, opposite = _new_faces(mesh, rival)
+            if rival // 3 != e:
+                near = opposite
+            near_box = box_of(near)
+            if boxes_meet(near_box, one_box) and _are_refused(one, near, space.area_scale):
+                return True
+            if boxes_meet(near_box, other_box) and _are_refused(other, near, space.area_scale):
+                return True
+        node = next_leaf(space, after(node), box, number)
+    return False
 
 
 @overload(blocker)
-def _compiled_blocker(mesh, space, h, changed, number):
-    return (lambda mesh, space, h, changed, number: NONE) if is_none(space) else blocker
+def _compiled_blocker(mesh, space, h, since):
+    return (lambda mesh, space, h, since: NONE) if is_none(space) else blocker
 
 
 @jit
 def would_cut(mesh, space, h):
     """Tell whether the flip of `h` is refused, as `blocker` does; never if nothing is active."""
-    return blocker(mesh, space, h, ANY, 0) != NONE
+    return blocker(mesh, space, h, EVER) != NONE
 
 
 @jit
@@ -149,7 +180,7 @@ def mark_cuts(mesh, space, marked, start, stop):
     for f in range(start, stop):
         one = face_at(mesh, f)
         box = box_of(one)
-        node = next_leaf(space, 0, box)
+        node = next_leaf(space, 0, box, EVER)
         while node != NONE:
             first, last = faces_at(space, node)
             for place in range(first, last):
@@ -159,4 +190,4 @@ def mark_cuts(mesh, space, marked, start, stop):
                 near = face_at(mesh, e)
                 if boxes_meet(box_of(near), box) and cut_exactly(one, near, match(one, near)):
                     marked[e] = marked[f] = True
-            node = next_leaf(space, after(node), box)
+            node = next_leaf(space, after(node), box, EVER)

@@ -22,6 +22,13 @@ from ..mesh.points import Point, cross, dot, norm, subtract
 # MeshLab's limit for determinants, in squared units of the coordinates, and for weights.
 LIMIT = 1e-6
 HALF = 0.5
+# `side_meets` says yes only if the segment and the triangle, no side of which is longer than x,
+# come nearer to each other than ROUNDING_OF_POINTS + ROUNDING_OF_AREAS * area_scale * x**3. For the
+# weights and the distance that it computes are those of a point up to some 12 roundings of their
+# numerators (products of lengths) and of the determinant, over the determinant, which is at least
+# LIMIT / area_scale: in all 72 * 1.2e-16 / LIMIT. The points halfway are rounded by themselves.
+ROUNDING_OF_AREAS = 1e-7
+ROUNDING_OF_POINTS = 1e-14
 
 
 @jit

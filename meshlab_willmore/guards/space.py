@@ -3,9 +3,9 @@
 A perfect binary tree of boxes. Its leaves hold a few faces each, split by the median of their
 middles along the longest side, once for the input. A flip changes two faces within the outline of
 their quad, and faces keep their leaves: only the boxes from these two leaves up to the first one
-that stays as it was are computed again. So all arrays keep their size, and one huge face, or all
-points on a line, do no harm. The tree stands in an array, node p over 2 p + 1 and 2 p + 2, and is
-walked without a stack.
+that stays as it was are computed again, or made to hold the quad. So all arrays keep their size,
+and one huge face, or all points on a line, do no harm. The tree stands in an array, node p over
+2 p + 1 and 2 p + 2, and is walked without a stack.
 """
 
 from typing import NamedTuple
@@ -14,12 +14,15 @@ import numpy as np
 from numba import types
 from numba.extending import overload
 
-from ..mesh.halfedge import NONE
+from ..mesh.halfedge import NONE, Mesh, diamond
 from ..mesh.jit import at, jit
+from ..mesh.workers import crew
 
 # Faces in a leaf: half as many up to as many. More cost more tests, fewer cost memory.
 LEAF_FACES = 4
 SIDES = 6
+# Parts of the tree that are sorted side by side.
+BLOCKS = 16
 
 
 class Space(NamedTuple):
@@ -37,6 +40,10 @@ class Space(NamedTuple):
         Faces leaf by leaf.
     leaf : (m,) int32
         Leaf of each face, 0 .. b - 1.
+    changed : (m,) int32
+        The round of flips in which each face last changed, for searches that make rounds; else 0.
+    changed_below : (2 b - 1,) int32
+        The last of these rounds among the faces below each node.
     """
 
     active: bool
@@ -44,6 +51,8 @@ class Space(NamedTuple):
     box: np.ndarray
     order: np.ndarray
     leaf: np.ndarray
+    changed: np.ndarray
+    changed_below: np.ndarray
 
 
 class NoSpace(NamedTuple):
@@ -65,7 +74,7 @@ class NoSpace(NamedTuple):
 def no_space():
     """Return the space that refuses nothing, for kernels that are compiled for both."""
     empty = np.empty(0, np.int32)
-    return Space(False, 1.0, np.empty((0, SIDES)), empty, empty)
+    return Space(False, 1.0, np.empty((0, SIDES)), empty, empty, empty, empty)
 
 
 def without(space):
@@ -96,12 +105,23 @@ def space_of(mesh, exponent=0):
         leaves *= 2
     with np.errstate(over="ignore", under="ignore"):
         area_scale = float(np.ldexp(1.0, 2 * exponent))
-    order = np.arange(faces, dtype=np.int32)
+    order, nodes = np.arange(faces, dtype=np.int32), 2 * leaves - 1
     space = Space(
-        True, area_scale, np.empty((2 * leaves - 1, SIDES)), order, np.empty(faces, np.int32)
+        True,
+        area_scale,
+        np.empty((nodes, SIDES)),
+        order,
+        np.empty(faces, np.int32),
+        np.zeros(faces, np.int32),
+        np.zeros(nodes, np.int32),
     )
-    _split(order, _middles(mesh), leaves)
-    _fill(mesh, space)
+    blocks = min(leaves, BLOCKS)
+    sorting = _Sorting(order, _middles(mesh), leaves, leaves // blocks)
+    with crew() as share:
+        _split(sorting, 0, leaves, leaves // blocks)
+        share(_split_blocks, sorting, blocks, piece=1)
+        share(_fill_leaves, _Index(mesh, space), leaves)
+    _bound_nodes(space)
     return space
 
 
@@ -109,21 +129,34 @@ def renewed(space, mesh):
     """Return the index of a mesh that flips have made of the one that `space` belongs to."""
     if isinstance(space, NoSpace):
         return space
-    other = space._replace(box=np.empty_like(space.box))
-    if space.active:
-        _fill(mesh, other)
+    other = space._replace(
+        box=np.empty_like(space.box),
+        changed=np.zeros_like(space.changed),
+        changed_below=np.zeros_like(space.changed_below),
+    )
+    _fill_leaves(_Index(mesh, other), 0, (len(other.box) + 1) // 2)
+    _bound_nodes(other)
     return other
+
+
+class _Index(NamedTuple):
+    """A mesh and its index."""
+
+    mesh: Mesh
+    space: Space
 
 
 @jit
 def _middles(mesh):
-    """Return the middles of the boxes of all faces, twice as large (m, 3)."""
-    middles = np.empty((len(mesh.origin) // 3, 3))
-    for f in range(len(middles)):
-        u, v, w = mesh.origin[3 * f], mesh.origin[3 * f + 1], mesh.origin[3 * f + 2]
+    """Return the middles of the boxes of all faces, twice as large (3, m)."""
+    middles = np.empty((3, len(mesh.origin) // 3))
+    for f in range(middles.shape[1]):
+        first = 3 * f
+        u, v, w = mesh.origin[at(first)], mesh.origin[at(first + 1)], mesh.origin[at(first + 2)]
         for axis in range(3):
-            a, b, c = mesh.vertices[u, axis], mesh.vertices[v, axis], mesh.vertices[w, axis]
-            middles[f, axis] = min(a, b, c) + max(a, b, c)
+            a = mesh.vertices[at(u), at(axis)]
+            b, c = mesh.vertices[at(v), at(axis)], mesh.vertices[at(w), at(axis)]
+            middles[at(axis), at(f)] = min(a, b, c) + max(a, b, c)
     return middles
 
 
@@ -132,9 +165,10 @@ def _longest_axis(order, middles, start, stop):
     """Return the axis along which the middles of some faces lie farthest apart."""
     longest, best = -1.0, 0
     for axis in range(3):
-        least = most = middles[order[start], axis]
+        along = middles[axis]
+        least = most = along[order[start]]
         for place in range(start + 1, stop):
-            middle = middles[at(order[at(place)]), at(axis)]
+            middle = along[at(order[at(place)])]
             least, most = min(least, middle), max(most, middle)
         if most - least > longest:
             longest, best = most - least, axis
@@ -173,18 +207,49 @@ def _start(leaf, faces, leaves):
     return np.int64(leaf) * faces // leaves
 
 
+class _Sorting(NamedTuple):
+    """Faces that are being sorted into leaves.
+
+    Attributes
+    ----------
+    order : (m,) int32
+        The faces, changed in place.
+    middles : (3, m) float64
+        Their middles.
+    leaves, width : int
+        The number of all leaves, and of those that are sorted by themselves.
+    """
+
+    order: np.ndarray
+    middles: np.ndarray
+    leaves: int
+    width: int
+
+
 @jit
-def _split(order, middles, leaves):
-    """Sort the faces into the leaves: halve all, then each half, and so on."""
-    width = leaves
-    while width > 1:
-        for leaf in range(0, leaves, width):
-            start = _start(leaf, len(order), leaves)
-            middle = _start(leaf + width // 2, len(order), leaves)
-            stop = _start(leaf + width, len(order), leaves)
-            axis = _longest_axis(order, middles, start, stop)
-            _select(order, middles[:, axis], start, stop - 1, middle)
+def _split(sorting, first, last, least):
+    """Sort the faces of the leaves `first` up to `last`: halve them, then each half, and so on.
+
+    Until only `least` leaves are together.
+    """
+    order, faces, leaves = sorting.order, len(sorting.order), sorting.leaves
+    width = last - first
+    while width > least:
+        for leaf in range(first, last, width):
+            start = _start(leaf, faces, leaves)
+            middle = _start(leaf + width // 2, faces, leaves)
+            stop = _start(leaf + width, faces, leaves)
+            axis = _longest_axis(order, sorting.middles, start, stop)
+            _select(order, sorting.middles[axis], start, stop - 1, middle)
         width //= 2
+
+
+@jit
+def _split_blocks(sorting, start, stop):
+    """Sort the faces of each of the blocks from `start` up to `stop` by themselves."""
+    for block in range(start, stop):
+        first = block * sorting.width
+        _split(sorting, first, first + sorting.width, 1)
 
 
 @jit
@@ -224,14 +289,19 @@ def _set_span(space, node, axis, least, most):
 
 
 @jit
-def _fill(mesh, space):
-    leaves = (len(space.box) + 1) // 2
-    for leaf in range(leaves):
+def _fill_leaves(index, first, last):
+    """Write which faces the leaves from `first` up to `last` have, and their boxes."""
+    space, leaves = index.space, (len(index.space.box) + 1) // 2
+    for leaf in range(first, last):
         stop = _start(leaf + 1, len(space.order), leaves)
         for place in range(_start(leaf, len(space.order), leaves), stop):
             space.leaf[space.order[place]] = leaf
-        _bound_leaf(mesh, space, leaf)
-    for node in range(leaves - 2, -1, -1):
+        _bound_leaf(index.mesh, space, leaf)
+
+
+@jit
+def _bound_nodes(space):
+    for node in range(len(space.box) // 2 - 1, -1, -1):
         _bound_node(space, node)
 
 
@@ -259,13 +329,69 @@ def _compiled_follow(mesh, space, h):
 
 
 @jit
-def next_leaf(space, node, box):
+def _hold(space, f, box, number):
+    """Make the boxes above the face `f`, changed in this round, hold `box`."""
+    space.changed[f] = number
+    node = len(space.box) // 2 + np.int64(space.leaf[f])
+    while True:
+        row = at(node)
+        # If so, all above know too.
+        is_done = space.changed_below[row] == number
+        space.changed_below[row] = number
+        for axis in range(3):
+            low, high = at(axis), at(3 + axis)
+            if box[axis] < space.box[row, low]:
+                space.box[row, low], is_done = box[axis], False
+            if box[3 + axis] > space.box[row, high]:
+                space.box[row, high], is_done = box[3 + axis], False
+        if is_done or node == 0:
+            return
+        node = (node - 1) // 2
+
+
+@jit
+def grow(mesh, space, h, number):
+    """Do what `follow` does, before or after the flip, and note the round.
+
+    That takes less time. The boxes get larger: they hold the faces as they are and as they were.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    space : Space
+        Changed in place.
+    h : int
+        Half-edge of the flip.
+    number : int
+        Number of the round, at least 1.
+    """
+    box = box_around(*diamond(mesh, h))
+    _hold(space, np.int64(h // 3), box, number)
+    _hold(space, np.int64(mesh.twin[at(h)] // 3), box, number)
+
+
+@jit
+def box_around(a, b, c, d):
+    """Return least x, y, z and largest x, y, z of four points."""
+    return (
+        min(a.x, b.x, c.x, d.x),
+        min(a.y, b.y, c.y, d.y),
+        min(a.z, b.z, c.z, d.z),
+        max(a.x, b.x, c.x, d.x),
+        max(a.y, b.y, c.y, d.y),
+        max(a.z, b.z, c.z, d.z),
+    )
+
+
+@jit
+def next_leaf(space, node, box, since):
     """Return the first node from `node` on, in the order of the tree, that is a leaf in reach.
 
     Returns
     -------
     int
-        A leaf whose box meets `box`, or `NONE` if there is none. Go on with `after`.
+        A leaf whose box meets `box`, with a face that changed in the round `since` or later, or
+        `NONE` if there is none. Go on with `after`.
     """
     inner = len(space.box) // 2
     while node != NONE:
@@ -277,6 +403,7 @@ def next_leaf(space, node, box):
             & (space.box[row, at(3)] >= box[0])
             & (space.box[row, at(4)] >= box[1])
             & (space.box[row, at(5)] >= box[2])
+            & (space.changed_below[row] >= since)
         )
         if not meets:
             node = after(node)

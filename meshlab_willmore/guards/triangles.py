@@ -16,10 +16,14 @@ make turns vanish. So segments of one plane meet where all their shadows do, and
 any shadow shows it.
 """
 
-from ..mesh.jit import jit
+from ..mesh.jit import inlined, jit
+from ..mesh.points import Point, add, norm, subtract
 from .predicates import orient3d, turn
 
 AXES = 3
+# A scalar product of rounded differences is off by less than this part of the sum of sizes, and a
+# float that is far above those that have lost digits.
+BOUND_PRODUCT, LEAST = 1e-15, 1e-290
 
 
 @jit
@@ -158,6 +162,50 @@ def _meet_besides(s, a, b, c, d):
     if at_c * at_d > 0:
         return False
     return segment_meets(a, b, s, c, d) or segment_meets(c, d, s, a, b)
+
+
+@inlined
+def _is_ahead(w, a, least):
+    """Tell whether the product of `w` and `a`, a rounded difference, is more than `least` >= 0.
+
+    True only where no rounding can be the cause.
+    """
+    x, y, z = w.x * a.x, w.y * a.y, w.z * a.z
+    return x + y + z > BOUND_PRODUCT * (abs(x) + abs(y) + abs(z)) + least
+
+
+@inlined
+def _extent(a):
+    return abs(a.x) + abs(a.y) + abs(a.z)
+
+
+@jit
+def are_apart(s, a, b, c, d, limit, share):
+    """Tell whether a plane through `s` is seen to have a, b on one side and c, d on the other.
+
+    It is the one that halves the angle between the middles of a-b and c-d; nearly all neighbours
+    round a vertex are told apart by it. The four points must be farther from it than `limit`, and
+    than `share` times the third power of what bounds the sides of the triangles (s, a, b) and
+    (s, c, d).
+    """
+    a, b, c, d = subtract(a, s), subtract(b, s), subtract(c, s), subtract(d, s)
+    one, other = add(a, b), add(c, d)
+    size, other_size = norm(one), norm(other)
+    w = Point(
+        one.x * other_size - other.x * size,
+        one.y * other_size - other.y * size,
+        one.z * other_size - other.z * size,
+    )
+    extent = _extent(a) + _extent(b) + _extent(c) + _extent(d)
+    # The length of w is at most the product of the sizes times 2.
+    least = (limit + share * extent * extent * extent) * 2.0 * size * other_size + LEAST
+    back = Point(-w.x, -w.y, -w.z)
+    return (
+        _is_ahead(w, a, least)
+        and _is_ahead(w, b, least)
+        and _is_ahead(back, c, least)
+        and _is_ahead(back, d, least)
+    )
 
 
 @jit

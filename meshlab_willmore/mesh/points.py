@@ -28,6 +28,12 @@ def subtract(a, b):
 
 
 @inlined
+def add(a, b):
+    """Return the sum of two vectors."""
+    return Point(a.x + b.x, a.y + b.y, a.z + b.z)
+
+
+@inlined
 def from_middle(a, b, p):
     """Return the vector to `p` from the point halfway between `a` and `b`.
 

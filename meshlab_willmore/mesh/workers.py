@@ -38,9 +38,10 @@ def crew(threads=None) -> Iterator[Callable]:
     Yields
     ------
     callable
-        ``share(kernel, task, count)`` calls ``kernel(task, start, stop)`` for pieces that cover
-        0 .. count, and returns when all are done. The pieces run at the same time, in any order, so
-        a kernel must not write what it reads, or may read, in another piece.
+        ``share(kernel, task, count, piece=PIECE)`` calls ``kernel(task, start, stop)`` for pieces
+        of so many items that cover 0 .. count, and returns when all are done. The pieces run at the
+        same time, in any order, so a kernel must not write what it reads, or may read, in another
+        piece.
     """
     threads = thread_count() if threads is None else threads
     if threads == 1:
@@ -48,27 +49,30 @@ def crew(threads=None) -> Iterator[Callable]:
         return
     with ThreadPoolExecutor(threads - 1) as pool:
 
-        def share(kernel, task, count):
-            if count <= PIECE:
+        def share(kernel, task, count, piece=None):
+            piece = PIECE if piece is None else piece
+            if count <= piece:
                 kernel(task, 0, count)
             else:
-                _together(pool, min(threads - 1, (count - 1) // PIECE), kernel, task, count)
+                helpers = min(threads - 1, (count - 1) // piece)
+                _together(pool, helpers, kernel, task, count, piece)
 
         yield share
 
 
-def _alone(kernel, task, count):
-    for start in range(0, count, PIECE):
-        kernel(task, start, min(start + PIECE, count))
+def _alone(kernel, task, count, piece=None):
+    piece = PIECE if piece is None else piece
+    for start in range(0, count, piece):
+        kernel(task, start, min(start + piece, count))
 
 
-def _together(pool, helpers, kernel, task, count):
+def _together(pool, helpers, kernel, task, count, piece):
     # Taken one by one, by whoever is free; an exception, such as an interrupt, leaves none.
-    starts = iter(range(0, count, PIECE))
+    starts = iter(range(0, count, piece))
 
     def work():
         for start in starts:
-            kernel(task, start, min(start + PIECE, count))
+            kernel(task, start, min(start + piece, count))
 
     others = [pool.submit(work) for _ in range(helpers)]
     try:

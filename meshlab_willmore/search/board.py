@@ -55,8 +55,9 @@ class Board(NamedTuple):
         in the low 32 bits the number of the peak.
     space : Space
     waiting : Waiting
-    changed : (m,) int32
-        The round in which each face last changed; empty if the space is not active.
+    to_flip : (m,) int32
+        For each face that is to change in this round the half-edge that is to be flipped; empty if
+        the space is not active.
     """
 
     mesh: Mesh
@@ -78,7 +79,7 @@ class Board(NamedTuple):
     new_edge: np.ndarray
     space: Space
     waiting: Waiting
-    changed: np.ndarray
+    to_flip: np.ndarray
 
 
 def board_of(mesh, rules, space):
@@ -105,7 +106,7 @@ def board_of(mesh, rules, space):
         new_edge=np.zeros(len(mesh.vertices), np.int64),
         space=space,
         waiting=nothing_waits(len(space.order)),
-        changed=np.zeros(len(space.order), np.int32),
+        to_flip=np.empty(len(space.order), np.int32),
     )
 
 

@@ -54,12 +54,11 @@ def _take_corners(board, h):
 
 
 @jit
-def _is_blocked_by_now(board, h, verdict, number):
+def _is_blocked_by_now(board, h, verdict, is_contested, number):
     """Tell whether a new face would cut another one; the verdict tells how it was before."""
     if verdict == IS_BLOCKED:
         return is_blocked(board, h)
-    face = blocker(board.mesh, board.space, h, board.changed, number)
-    return must_wait(board, h, face)
+    return is_contested and must_wait(board, h, blocker(board.mesh, board.space, h, number))
 
 
 class Done(NamedTuple):
@@ -107,7 +106,7 @@ def flip_peaks(look, start, stop, first, left, number, done):
             is_joined
             or verdict == FOLDS
             or (is_tie and brings_back(mesh, board.gone, h))
-            or _is_blocked_by_now(board, h, verdict, number)
+            or _is_blocked_by_now(board, h, verdict, place >= first, number)
         ):
             forbid(board, h)
             refused += 1
@@ -121,9 +120,6 @@ def flip_peaks(look, start, stop, first, left, number, done):
             insert(board.gone, mesh.origin[h], mesh.origin[mesh.twin[h]])
         gain += board.gain[at(h)]
         flip(mesh, h)
-        if board.space.active:
-            spaces.follow(mesh, board.space, h)
-            board.changed[h // 3] = board.changed[mesh.twin[h] // 3] = number
         board.done[at(flipped)] = h
         flipped += 1
     return flipped, refused, gain, state
@@ -201,7 +197,7 @@ def run(kernel, mesh, rules, space=None, threads=None):
                 break
             look = Look(board, edges, np.empty(len(edges), np.int8))
             share(peaks.find_peaks, look, len(edges))
-            chosen, first = peaks.in_order(look, number, progress.flips)
+            chosen, first = peaks.in_order(look, number, progress.flips, share)
             board, done = _flip_all(board, chosen, first, rules.maxflips - progress.flips, number)
             flips, gain = progress.flips + done.flipped, progress.gain + done.gain
             progress = Progress(progress.scored, flips, gain, done.state)

@@ -8,7 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from .. import guards
-from ..guards.cuts import would_cut
+from ..guards import space as spaces
+from ..guards.cuts import has_rival, would_cut
 from ..mesh.halfedge import NONE, apex, following, makes_new_edge, previous
 from ..mesh.jit import at, inlined, jit
 from .board import Board
@@ -97,8 +98,53 @@ def find_contested(look, contested, number):
             board.new_edge[lower] = (np.int64(number) << HALF_BITS) | place
 
 
-def in_order(look, number, flips):
+@jit
+def announce(look, number):
+    """Let the index of the faces know what the peaks of round `number` would change."""
+    board, mesh = look.board, look.board.mesh
+    for place in range(len(look.edges)):
+        if look.verdict[at(place)] == IS_PEAK:
+            h = np.int64(look.edges[at(place)])
+            spaces.grow(mesh, board.space, h, number)
+            board.to_flip[at(h // 3)] = board.to_flip[at(mesh.twin[at(h)] // 3)] = h
+
+
+class Rivals(NamedTuple):
+    """Peaks of round `number`, and a mark for each that another one may be in the way of."""
+
+    look: Look
+    contested: np.ndarray
+    number: int
+
+
+@jit
+def find_rivals(rivals, start, stop):
+    """Mark, in place, the peaks from `start` up to `stop` whose faces would cut those of others."""
+    look, board = rivals.look, rivals.look.board
+    for place in range(start, stop):
+        if look.verdict[at(place)] == IS_PEAK:
+            h = np.int64(look.edges[at(place)])
+            if has_rival(board.mesh, board.space, h, rivals.number, board.to_flip):
+                rivals.contested[at(place)] = True
+
+
+def _contested(look, number, is_free_for_all, share):
+    """Return which peaks may be in each other's way, or all."""
+    contested = np.full(len(look.edges), is_free_for_all)
+    if look.board.space.active:
+        announce(look, number)
+    if is_free_for_all:
+        return contested
+    find_contested(look, contested, number)
+    if look.board.space.active:
+        share(find_rivals, Rivals(look, contested, number), len(contested))
+    return contested
+
+
+def in_order(look, number, flips, share):
     """Return the peaks in the order in which they are to be flipped.
+
+    Where peaks can be in each other's way, the larger gain goes first.
 
     Parameters
     ----------
@@ -108,23 +154,21 @@ def in_order(look, number, flips):
         Number of this round.
     flips : int
         How many there were before.
+    share : callable
+        From `meshlab_willmore.mesh.workers.crew`.
 
     Returns
     -------
     look : Look
         All edges of which something becomes.
     first : int
-        The place from which on it has to be asked whether an edge is there by now.
+        The place from which on it has to be asked whether a flip is still allowed.
     """
     board = look.board
     places = np.flatnonzero(look.verdict != STAYS)
     peaks = Look(board, look.edges[places], look.verdict[places])
-    # Where peaks can be in each other's way, the larger gain goes first.
-    contested = np.zeros(len(places), np.bool_)
-    if board.space.active or board.rules.is_wide or flips + len(places) > board.rules.maxflips:
-        contested[:] = True
-    else:
-        find_contested(peaks, contested, number)
+    are_many = flips + len(places) > board.rules.maxflips
+    contested = _contested(peaks, number, board.rules.is_wide or are_many, share)
     late = np.flatnonzero(contested)
     edges = peaks.edges[late]
     numbers = edges.astype(np.uint64) * SCRAMBLER & LOW_BITS

@@ -74,7 +74,7 @@ def is_blocked(task, h):
     h : int
         Half-edge that may be flipped.
     """
-    return must_wait(task, h, cuts.blocker(task.mesh, task.space, h, cuts.ANY, 0))
+    return must_wait(task, h, cuts.blocker(task.mesh, task.space, h, cuts.EVER))
 
 
 @jit

@@ -1,11 +1,14 @@
 """What MeshLab says of two faces is never missed, and mostly met."""
 
+import itertools
+
 import numpy as np
 import pymeshlab
 import pytest
 
 from meshlab_willmore.guards import faces
 from meshlab_willmore.mesh.validate import to_unit_scale
+from tests import meshes
 from tests.guards.test_triangles import FAMILIES, PATTERNS
 
 PAIRS = 150
@@ -39,3 +42,58 @@ def test_what_meshlab_counts_is_counted(family, sharing):
         assert said or not wanted, vertices.tolist()
         agreed += said == wanted
     assert agreed >= 0.95 * PAIRS
+
+
+def round_a_vertex(rng, gap, bend):
+    """Two faces with the vertex 0, a gap (radians) apart, nearly in a plane."""
+    turns = np.cumsum([0.0, rng.uniform(0.01, 2.0), gap, rng.uniform(0.01, 2.0)])
+    lengths = 10.0 ** rng.uniform(-2, 0, 4)
+    flat = np.column_stack([np.cos(turns), np.sin(turns), bend * rng.normal(size=4)])
+    turned = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    return np.vstack([np.zeros(3), flat * lengths[:, None]]) @ turned + rng.normal(size=3)
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3, 1e6])
+@pytest.mark.parametrize("bend", [0.0, 1e-12, 1e-6, 0.1])
+def test_what_is_seen_apart_neither_cuts_nor_counts(bend, scale):
+    rng = np.random.default_rng(2)
+    corners = np.array([(0, 1, 2), (0, 3, 4)], np.int32)
+    for gap in (-0.5, -1e-6, -1e-12, 0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 0.5):
+        for _ in range(40):
+            vertices = scale * round_a_vertex(rng, gap, bend)
+            scaled, exponent = to_unit_scale(vertices, corners)
+            one, other = (
+                faces.face_of(scaled, *np.roll(face, rng.integers(3))) for face in corners
+            )
+            common = faces.match(one, other)
+            if faces.are_seen_apart(one, other, common, 4.0**exponent):
+                assert faces.are_seen_apart(other, one, faces.match(other, one), 4.0**exponent)
+                assert not faces.cut_exactly(one, other, common)
+                assert not faces.count_as_cut(one, other, common, 4.0**exponent)
+
+
+@pytest.mark.parametrize("sharing", PATTERNS)
+@pytest.mark.parametrize("family", FAMILIES)
+def test_in_no_family_is_a_cut_seen_apart(family, sharing):
+    rng = np.random.default_rng(3)
+    corners = np.array(PATTERNS[sharing], np.int32)
+    for _ in range(300):
+        vertices = np.asarray(FAMILIES[family](rng), float)
+        scaled, exponent = to_unit_scale(vertices, corners)
+        one, other = (faces.face_of(scaled, *face) for face in corners)
+        common = faces.match(one, other)
+        if faces.are_seen_apart(one, other, common, 4.0**exponent):
+            assert not faces.cut_exactly(one, other, common)
+            assert not faces.count_as_cut(one, other, common, 4.0**exponent)
+
+
+def test_nearly_all_neighbours_round_a_vertex_are_seen_apart():
+    vertices, corners = meshes.bumpy_sphere(300)
+    scaled, exponent = to_unit_scale(vertices, corners)
+    seen = []
+    for f, g in itertools.combinations(range(len(corners)), 2):
+        if len(set(corners[f]) & set(corners[g])) == 1:
+            one, other = faces.face_of(scaled, *corners[f]), faces.face_of(scaled, *corners[g])
+            common = faces.match(one, other)
+            seen.append(faces.are_seen_apart(one, other, common, 4.0**exponent))
+    assert np.mean(seen) > 0.9

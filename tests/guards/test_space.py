@@ -73,7 +73,7 @@ def test_the_index_finds_what_all_pairs_tell(name):
             if not can_flip(mesh, h):
                 continue
             blocking = brute.blockers(mesh, h, space.area_scale)
-            found = int(cuts.blocker(mesh, space, h, cuts.ANY, 0))
+            found = int(cuts.blocker(mesh, space, h, cuts.EVER))
             assert (found in blocking) if blocking else (found == NONE)
             assert bool(cuts.would_cut(mesh, space, h)) == bool(blocking)
         np.testing.assert_array_equal(mesh.origin, before.origin)
@@ -96,9 +96,7 @@ def test_boxes_follow_the_flips(name):
     mesh, _ = unit_mesh(*MESHES[name]())
     space = spaces.space_of(mesh)
     shuffle(mesh, space, 200, np.random.default_rng(2))
-    followed = space.box.copy()
-    spaces._fill(mesh, space)
-    np.testing.assert_array_equal(followed, space.box)
+    np.testing.assert_array_equal(spaces.renewed(space, mesh).box, space.box)
     corners = mesh.vertices[faces_of(mesh)]
     np.testing.assert_array_equal(space.box[0, :3], corners.min(axis=(0, 1)))
     np.testing.assert_array_equal(space.box[0, 3:], corners.max(axis=(0, 1)))
@@ -119,6 +117,80 @@ def test_boxes_follow_flips_and_the_way_back():
         spaces.follow(mesh, space, h)
         np.testing.assert_array_equal(space.box, before)
     assert changes > 10
+
+
+@pytest.mark.parametrize("name", MESHES)
+def test_boxes_that_grow_hold_what_is_below_and_what_was(name):
+    mesh, _ = unit_mesh(*MESHES[name]())
+    space = spaces.space_of(mesh)
+    lowest, highest = space.box[:, :3].copy(), space.box[:, 3:].copy()
+    rounds = np.zeros(len(space.order), int)
+    for number in (1, 2, 5):
+        for h in np.random.default_rng(number).integers(0, len(mesh.origin), 40):
+            if mesh.twin[h] == NONE or not can_flip(mesh, h):
+                continue
+            flip(mesh, h)
+            spaces.grow(mesh, space, h, number)
+            rounds[[h // 3, mesh.twin[h] // 3]] = number
+            tight = spaces.renewed(space, mesh).box
+            lowest, highest = np.minimum(lowest, tight[:, :3]), np.maximum(highest, tight[:, 3:])
+        np.testing.assert_array_equal(space.box[:, :3], lowest)
+        np.testing.assert_array_equal(space.box[:, 3:], highest)
+        np.testing.assert_array_equal(space.changed, rounds)
+        below = np.zeros(len(space.box), int)
+        np.maximum.at(below, len(space.box) // 2 + space.leaf, rounds)
+        for node in range(len(below) // 2 - 1, -1, -1):
+            below[node] = below[2 * node + 1 : 2 * node + 3].max()
+        np.testing.assert_array_equal(space.changed_below, below)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("name", MESHES)
+def test_of_faces_that_changed_in_a_round_those_are_found_that_all_pairs_tell(name):
+    mesh, exponent = unit_mesh(*MESHES[name]())
+    space = spaces.space_of(mesh, exponent)
+    rng = np.random.default_rng(3)
+    for number in (1, 2):
+        for h in rng.integers(0, len(mesh.origin), 30):
+            if mesh.twin[h] != NONE and can_flip(mesh, h):
+                flip(mesh, h)
+                spaces.grow(mesh, space, h, number)
+    for h in np.flatnonzero(mesh.twin != NONE)[::3]:
+        if not can_flip(mesh, h):
+            continue
+        blocking = brute.blockers(mesh, h, space.area_scale)
+        for since in (1, 2, 3):
+            young = {f for f in blocking if space.changed[f] >= since and f != h // 3}
+            found = int(cuts.blocker(mesh, space, h, since))
+            assert (found in young) if young else (found == NONE)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("name", MESHES)
+def test_rivals_are_those_that_all_pairs_tell(name):
+    """Flips of a round: none has a face of another one's, but their new faces may cut."""
+    mesh, exponent = unit_mesh(*MESHES[name]())
+    space = spaces.space_of(mesh, exponent)
+    to_flip = np.full(len(space.order), -1, np.int32)
+    for h in np.random.default_rng(4).permutation(len(mesh.origin)).tolist():
+        own = [h // 3, int(mesh.twin[h]) // 3]
+        if mesh.twin[h] != NONE and can_flip(mesh, h) and (to_flip[own] == -1).all():
+            to_flip[own] = h
+            spaces.grow(mesh, space, h, 7)
+    flipped = brute.copy_of(mesh)
+    chosen = sorted(set(to_flip[to_flip >= 0].tolist()))
+    for h in chosen:
+        flip(flipped, h)
+    corners, area_scale = faces_of(flipped), space.area_scale
+    new = np.flatnonzero(to_flip >= 0)
+    for h in chosen:
+        own = [h // 3, int(mesh.twin[h]) // 3]
+        wanted = any(
+            brute.are_refused(mesh.vertices, corners, f, e, area_scale)
+            for f in own
+            for e in set(new.tolist()) - set(own)
+        )
+        assert bool(cuts.has_rival(mesh, space, h, 7, to_flip)) == wanted
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 4, 5, 8, 9, 31, 64, 65, 1000])
@@ -156,10 +228,10 @@ def test_one_huge_face_costs_little():
     visited = []
     for f in range(0, len(faces) - 1, 100):
         box = cuts.box_of(cuts.face_at(mesh, f))
-        node, leaves = spaces.next_leaf(space, 0, box), 0
+        node, leaves = spaces.next_leaf(space, 0, box, cuts.EVER), 0
         while node != NONE:
             leaves += 1
-            node = spaces.next_leaf(space, spaces.after(node), box)
+            node = spaces.next_leaf(space, spaces.after(node), box, cuts.EVER)
         visited.append(leaves)
     assert min(visited) >= 1
     assert np.mean(visited) < 30
@@ -169,10 +241,10 @@ def test_a_walk_meets_every_leaf_once_in_order():
     mesh, _ = unit_mesh(*meshes.bumpy_sphere(200))
     space = spaces.space_of(mesh)
     everything = (-np.inf,) * 3 + (np.inf,) * 3
-    node, walked = spaces.next_leaf(space, 0, everything), []
+    node, walked = spaces.next_leaf(space, 0, everything, cuts.EVER), []
     while node != NONE:
         walked.append(int(node))
-        node = spaces.next_leaf(space, spaces.after(node), everything)
+        node = spaces.next_leaf(space, spaces.after(node), everything, cuts.EVER)
     leaves = (len(space.box) + 1) // 2
     assert walked == list(range(leaves - 1, 2 * leaves - 1))
 
@@ -185,14 +257,14 @@ def test_without_a_guard_nothing_is_refused():
         if can_flip(mesh, h):
             assert not cuts.would_cut(mesh, space, h)
     spaces.follow(mesh, space, 0)
-    assert cuts.blocker(mesh, space, 0, cuts.ANY, 0) == NONE
+    assert cuts.blocker(mesh, space, 0, cuts.EVER) == NONE
     assert not spaces.space_of(build(np.empty((0, 3)), np.empty((0, 3), np.int32))).active
 
 
 @jit
 def _flipped(mesh, space, h):
     """What a search asks and does."""
-    refused = cuts.would_cut(mesh, space, h) or cuts.blocker(mesh, space, h, cuts.ANY, 0) != NONE
+    refused = cuts.would_cut(mesh, space, h) or cuts.blocker(mesh, space, h, cuts.EVER) != NONE
     if not refused:
         flip(mesh, h)
         spaces.follow(mesh, space, h)

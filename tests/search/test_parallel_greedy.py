@@ -150,7 +150,8 @@ def peaks_of(board, edges, number=1):
     edges = np.array(edges, np.int32)
     look = Look(board, edges, np.empty(len(edges), np.int8))
     peaks.find_peaks(look, 0, len(edges))
-    return look.verdict, *peaks.in_order(look, number, 0)
+    with workers.crew(1) as share:
+        return look.verdict, *peaks.in_order(look, number, 0, share)
 
 
 def flip_all(board, edges):
@@ -322,7 +323,7 @@ def test_two_flips_of_a_round_do_not_cut_each_other(gap):
     assert list(verdict) == [IS_PEAK, IS_PEAK]
     board, flipped, done = flip_all(board, two)
     if gap > 2.0:
-        assert flipped == [two[1], two[0]]
+        assert sorted(flipped) == two
     else:
         assert (flipped, done.refused, board.rank[two[0]]) == ([two[1]], 1, NEVER)
         # It waits until that face changes again.
@@ -350,23 +351,6 @@ def test_with_the_guard_too_the_number_of_threads_changes_nothing(seed, monkeypa
         assert not (self_intersections(vertices, faces_of(mesh)) & is_new).any()
         results.append(mesh.origin.tobytes())
     assert results[0] == results[1]
-
-
-def test_what_changed_in_this_round_is_looked_at_again():
-    vertices, faces = meshes.bumpy_sphere(60, bump=0.95)
-    mesh = build(vertices, faces)
-    space = space_of(mesh)
-    blocked = {}
-    for h in edges_of(mesh):
-        face = guards.cuts.blocker(mesh, space, h, guards.cuts.ANY, 0)
-        if makes_new_edge(mesh, h) and face not in (-1, h // 3):
-            blocked[h] = face
-    assert blocked
-    for h, face in blocked.items():
-        changed = np.ones(len(faces), np.int32)
-        changed[face] = 2
-        assert guards.cuts.blocker(mesh, space, h, changed, 2) == face
-        assert guards.cuts.blocker(mesh, space, h, changed, 3) == -1
 
 
 # --- threads -------------------------------------------------------------------------------------

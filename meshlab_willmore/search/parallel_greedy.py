@@ -26,7 +26,7 @@ import numpy as np
 
 from ..guards import space as spaces
 from ..guards.cuts import blocker
-from ..mesh.halfedge import apex, flip, makes_new_edge
+from ..mesh.halfedge import NONE, apex, flip, makes_new_edge
 from ..mesh.jit import at, jit
 from ..mesh.workers import crew
 from . import lists, peaks
@@ -58,7 +58,8 @@ def _is_blocked_by_now(board, h, verdict, is_contested, number):
     """Tell whether a new face would cut another one; the verdict tells how it was before."""
     if verdict == IS_BLOCKED:
         return is_blocked(board, h)
-    return is_contested and must_wait(board, h, blocker(board.mesh, board.space, h, number))
+    face = blocker(board.mesh, board.space, h, number) if is_contested else NONE
+    return must_wait(board, h, face)
 
 
 class Done(NamedTuple):

@@ -205,19 +205,31 @@ def in_old_slots(mesh, order):
         `Mesh.corner`, but in the numbers of the input.
     """
     faces, corners = np.empty((2, len(order), 3), np.int32)
-    _put_back(mesh, order, faces, corners)
+    with crew() as share:
+        share(_put_back, _Slots(mesh, order, faces, corners), len(order))
     return faces, corners
 
 
+class _Slots(NamedTuple):
+    """What `in_old_slots` is given, and what it is to return."""
+
+    mesh: Mesh
+    order: np.ndarray
+    faces: np.ndarray
+    corners: np.ndarray
+
+
 @jit
-def _put_back(mesh, order, faces, corners):
-    for place in range(len(order)):
+def _put_back(slots, start, stop):
+    """Write the faces from `start` up to `stop` into their old slots."""
+    mesh, order = slots.mesh, slots.order
+    for place in range(start, stop):
         f = at(order[at(place)])
         for c in range(3):
             h = at(3 * place + c)
             source = at(mesh.corner[h])
-            faces[f, at(c)] = mesh.origin[h]
-            corners[f, at(c)] = 3 * order[source // at(3)] + np.int32(source % at(3))
+            slots.faces[f, at(c)] = mesh.origin[h]
+            slots.corners[f, at(c)] = 3 * order[source // at(3)] + np.int32(source % at(3))
 
 
 @jit

@@ -83,7 +83,13 @@ class Board(NamedTuple):
 
 
 def board_of(mesh, rules, space):
-    """Return the board at the start: every edge is to be scored."""
+    """Return the board at the start: every edge is to be scored.
+
+    What the space knows of rounds, of a run before, is forgotten.
+    """
+    if space.active:
+        space.changed[:] = 0
+        space.changed_below[:] = 0
     size, faces = len(mesh.origin), len(mesh.origin) // 3
     edges = np.flatnonzero(np.arange(size, dtype=np.int32) < mesh.twin).astype(np.int32)
     return Board(

@@ -10,6 +10,7 @@ import pytest
 from meshlab_willmore import guards
 from meshlab_willmore.energy import willmore
 from meshlab_willmore.energy.kinds import KINDS
+from meshlab_willmore.guards import space as spaces
 from meshlab_willmore.guards.space import no_space, space_of
 from meshlab_willmore.measure import self_intersections
 from meshlab_willmore.mesh import workers
@@ -351,6 +352,16 @@ def test_with_the_guard_too_the_number_of_threads_changes_nothing(seed, monkeypa
         assert not (self_intersections(vertices, faces_of(mesh)) & is_new).any()
         results.append(mesh.origin.tobytes())
     assert results[0] == results[1]
+
+
+def test_a_new_board_forgets_the_rounds_of_a_run_before():
+    mesh = build(*meshes.bumpy_sphere(60))
+    space = space_of(mesh)
+    spaces.grow(mesh, space, 0, 3)
+    assert space.changed.max() == space.changed_below.max() == 3
+    board_of(mesh, rules_for("willmore"), space)
+    assert not space.changed.any()
+    assert not space.changed_below.any()
 
 
 # --- threads -------------------------------------------------------------------------------------

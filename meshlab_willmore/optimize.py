@@ -152,7 +152,8 @@ def optimize_flips(
         mesh, one by one. "parallel greedy": at the same time all flips that gain more than any
         other around them, on all cores; much quicker, as good, and the same for any number of
         threads. "variable depth": "greedy" first, then chains of flips that may go through a loss,
-        until none helps; slower, and far less dependent on the triangulation at the start. With the
+        until none helps; slower, and far less dependent on the triangulation at the start; on all
+        cores, in parts of large meshes, if there is no limit or guard against cuts. With the
         virtual Willmore energy, that energy decides where a chain goes, and the Willmore energy
         whether it helps.
         "annealing": greedy first, then random flips that may go through a loss, the less so the

@@ -44,11 +44,11 @@ from ..energy import delaunay
 from ..guards import space as spaces
 from ..mesh.halfedge import apex, flip, is_free, makes_new_edge
 from ..mesh.jit import generic, jit
-from . import greedy
+from . import greedy, regions
 from .chains import Task, find_chain, no_chain, ring_around
 from .greedy import SLICE
 from .pending import append, nothing_pending, queue_all, queue_blocked, queue_near, take_first
-from .rules import CONVERGED, STOPPED, WORKING, Progress
+from .rules import CONVERGED, NO_LIMIT, STOPPED, WORKING, Progress
 
 # What the harmonic index must gain by a flip to cast doubt on a place.
 DOUBT = 1e-7
@@ -127,18 +127,19 @@ def _mark_doubtful(mesh, rules, doubtful):
                 doubtful[mesh.origin[around]] = doubtful[apex(mesh, around)] = True
 
 
-def _work_off(kernel, task, progress):
-    """Go on slice by slice until the queue is empty or the limit is reached."""
+def _work_off(kernel, task, progress, halted):
+    """Go on slice by slice until the queue is empty, the limit is reached, or all is halted."""
     progress = progress._replace(state=WORKING)
-    while progress.state == WORKING:
+    while progress.state == WORKING and not halted:
         progress = Progress(*kernel(task, progress))
     return progress
 
 
-def run(kernel, descent, mesh, rules, reach, space=None):
+def run(kernel, descent, mesh, rules, reach, space=None, threads=None):
     """Flip edges of `mesh` in place until no allowed chain helps, or the limit is reached.
 
-    Chains that do not branch come first: they are cheap, and do most of the work.
+    Large meshes are searched in regions first, on all cores; not with the guard against
+    self-intersections, which looks everywhere, or a limit.
 
     Parameters
     ----------
@@ -153,6 +154,8 @@ def run(kernel, descent, mesh, rules, reach, space=None):
     reach : Reach
     space : Space, optional
         As for `meshlab_willmore.search.greedy.run`. It holds for each flip of a chain.
+    threads : int, optional
+        As many as Numba is set to if left out. The result does not depend on it.
 
     Returns
     -------
@@ -163,28 +166,49 @@ def run(kernel, descent, mesh, rules, reach, space=None):
     progress = greedy.run(descent, mesh, rules, space)
     if progress.state == STOPPED:
         return progress
-    touched = np.zeros(len(mesh.vertices), np.bool_)
+    touched = None
+    if regions.is_large(mesh) and not space.active and rules.maxflips == NO_LIMIT:
+
+        def search(part, halted):
+            begin = Progress(len(part.origin), 0, 0.0, WORKING)
+            return _search(kernel, part, rules, reach, spaces.no_space(), begin, None, halted)
+
+        found, touched = regions.run(search, mesh, threads)
+        flips, gain = progress.flips + found.flips, progress.gain + found.gain
+        progress = progress._replace(flips=flips, gain=gain)
+    return _search(kernel, mesh, rules, reach, space, progress, touched, [])
+
+
+def _search(kernel, mesh, rules, reach, space, progress, touched, halted):
+    """Make chains until none helps, at first from all edges, or from those near touched vertices.
+
+    Chains that do not branch come first: they are cheap, and do most of the work.
+    """
+    stages = dict.fromkeys((reach._replace(breadth=1), reach)) if touched is None else (reach,)
+    is_new = touched is None
+    touched = np.zeros(len(mesh.vertices), np.bool_) if is_new else touched
     blocked, refused = np.zeros(len(mesh.origin), np.bool_), np.zeros(1, np.bool_)
     pending = nothing_pending(mesh)
-    for stage in dict.fromkeys((reach._replace(breadth=1), reach)):
+    for stage in stages:
         task = Task(mesh, pending, no_chain(stage), touched, rules, space, blocked, refused)
-        touched[:] = blocked[:] = False
-        queue_all(mesh, pending)
-        progress = _work_off(kernel, task, progress)
-        if progress.state == STOPPED:
-            return progress
+        if is_new:
+            touched[:] = blocked[:] = False
+            queue_all(mesh, pending)
+            progress = _work_off(kernel, task, progress, halted)
+            if progress.state == STOPPED:
+                return progress
     deeper = task._replace(chain=no_chain(reach._replace(depth=reach.depth + 1)))
     doubtful = np.zeros(len(mesh.vertices), np.bool_)
     while True:
         while progress.state == CONVERGED and touched.any():
             queue_near(mesh, pending, touched, reach.depth + rules.is_wide)
             queue_blocked(mesh, pending, blocked)
-            progress = _work_off(kernel, task, progress)
+            progress = _work_off(kernel, task, progress, halted)
         # Single flips are no chains: a depth of 1 is plain descent.
-        if progress.state == STOPPED or reach.depth == 1:
+        if progress.state != CONVERGED or reach.depth == 1:
             return progress
         _mark_doubtful(mesh, rules, doubtful)
         queue_near(mesh, pending, doubtful, 0)
-        progress = _work_off(kernel, deeper, progress)
-        if progress.state == STOPPED or not touched.any():
+        progress = _work_off(kernel, deeper, progress, halted)
+        if progress.state != CONVERGED or not touched.any():
             return progress

@@ -7,6 +7,9 @@ import numpy as np
 from .jit import at, jit
 from .points import normal, point
 
+# Below, squares have lost digits.
+LEAST = 1e-150
+
 
 def vertex_normals(vertices, faces, others):
     """Return the unit normals of all vertices.
@@ -54,7 +57,13 @@ def _normalize(normals, has_face, others):
     for v in range(len(normals)):
         if not has_face[v]:
             normals[v, :] = others[v, :]
-        x, y, z = normals[v, 0], normals[v, 1], normals[v, 2]
+        # As Python's floats, which get infinite without a warning where the compiler is off.
+        x, y, z = float(normals[v, 0]), float(normals[v, 1]), float(normals[v, 2])
         length = math.sqrt(x * x + y * y + z * z)
-        if length > 0.0:
-            normals[v, 0], normals[v, 1], normals[v, 2] = x / length, y / length, z / length
+        if not LEAST < length < math.inf:
+            most = max(abs(x), abs(y), abs(z))
+            if not 0.0 < most < math.inf:
+                continue
+            x, y, z = x / most, y / most, z / most
+            length = math.sqrt(x * x + y * y + z * z)
+        normals[v, 0], normals[v, 1], normals[v, 2] = x / length, y / length, z / length

@@ -41,3 +41,12 @@ def test_faces_without_area_leave_zeros():
     vertices = np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]])
     faces = np.array([[0, 1, 2]], np.int32)
     assert not vertex_normals(vertices, faces, np.ones((3, 3))).any()
+
+
+@pytest.mark.parametrize("exponent", [-500, -300, 250, 480])
+def test_the_size_of_the_mesh_does_not_matter(exponent):
+    vertices, faces = meshes.bumpy_sphere(30)
+    others = np.zeros_like(vertices)
+    wanted = vertex_normals(vertices, faces, others)
+    found = vertex_normals(np.ldexp(vertices, exponent), faces, others)
+    np.testing.assert_allclose(found, wanted, rtol=1e-14, atol=1e-15)

@@ -56,7 +56,7 @@ def _normalize(normals, has_face, others):
     """Scale the normals of vertices with faces to length 1, and fill in the other ones."""
     for v in range(len(normals)):
         if not has_face[v]:
-            normals[v, :] = others[v, :]
+            normals[v, 0], normals[v, 1], normals[v, 2] = others[v, 0], others[v, 1], others[v, 2]
         # As Python's floats, which get infinite without a warning where the compiler is off.
         x, y, z = float(normals[v, 0]), float(normals[v, 1]), float(normals[v, 2])
         length = math.sqrt(x * x + y * y + z * z)

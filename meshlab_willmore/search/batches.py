@@ -78,7 +78,8 @@ def _rank_batch(board, batch, count, drop, judge, helpful, waiting):
             _note(board, batch.edges[lane], 2.0 * radians(angles), 0.0)
             continue
         copy_lane(batch.rows, lane, helpful.rows, waiting)
-        helpful.edges[waiting], helpful.gains[waiting] = batch.edges[lane], angles
+        helpful.edges[waiting], gain = batch.edges[lane], helpful.gains[waiting]
+        gain[0], gain[1], gain[2] = angles.r, angles.s, angles.half_turns
         waiting += 1
         if waiting == LANES:
             _judge_batch(board, helpful, waiting, judge)
@@ -110,7 +111,9 @@ def score_in_lanes(board, start, stop, drop, judge):
         What half of the cost reduction is, and half of what the Willmore energy drops by, as
         `meshlab_willmore.energy.willmore.drop`. A judge of None: nothing is asked of that.
     """
-    batch, helpful, count, waiting = _empty_batch(), _empty_batch(), 0, 0
+    batch, helpful = _empty_batch(), _empty_batch()
+    # Of one type from the start, or the compiler would try several.
+    count, waiting = np.int64(0), np.int64(0)
     for place in range(start, stop):
         h = board.touched[at(place)]
         forbid(board, h)

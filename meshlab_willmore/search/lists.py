@@ -68,7 +68,8 @@ def _list_touched(board):
             found[at(count)] = h
             count += board.is_touched[at(h)]
             board.is_touched[at(h)] = False
-        board.touched[size : size + count] = found[:count]
+        for place in range(count):
+            board.touched[at(size + place)] = found[at(place)]
         size += count
     return size
 

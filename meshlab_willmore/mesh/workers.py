@@ -52,7 +52,7 @@ def crew(threads=None) -> Iterator[Callable]:
         def share(kernel, task, count, piece=None):
             piece = PIECE if piece is None else piece
             if count <= piece:
-                kernel(task, 0, count)
+                _alone(kernel, task, count, piece)
             else:
                 helpers = min(threads - 1, (count - 1) // piece)
                 _together(pool, helpers, kernel, task, count, piece)

@@ -155,6 +155,12 @@ main(sys.argv[1:], prog_name="meshlab-willmore")
 
 def is_running(pid):
     """Whether there is a process, and no zombie that nobody has asked for yet."""
+    if Path("/proc/self/stat").exists():
+        try:
+            # After the name, which may have any characters.
+            return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+        except (FileNotFoundError, ProcessLookupError):
+            return False
     done = subprocess.run(
         ["ps", "-o", "stat=", "-p", str(pid)], capture_output=True, text=True, check=False
     )

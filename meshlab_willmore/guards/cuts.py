@@ -63,12 +63,23 @@ def _new_faces(mesh, h):
 
 
 @jit
-def _first_cut(mesh, space, h, one, other, since):
-    """Return a face besides those at `h` that one of the new faces `one` and `other` cuts.
+def _face_to_be(mesh, e, to_flip):
+    """Return the face `e` as the flips will make it; with None as it is."""
+    if to_flip is None:
+        return face_at(mesh, e)
+    h = np.int64(to_flip[at(e)])
+    one, other = _new_faces(mesh, h)
+    return one if h // 3 == e else other
 
-    Only faces that changed in the round `since` or later. `NONE` if there is none.
+
+@jit
+def _first_cut(mesh, space, h, since, to_flip):
+    """Return a face besides those at `h` that one of the new faces would cut, or `NONE`.
+
+    Only of the faces that changed in the round `since` or later, as `_face_to_be` gives them.
     """
     f, g = np.int64(h // 3), np.int64(mesh.twin[at(h)] // 3)
+    one, other = _new_faces(mesh, h)
     box, one_box, other_box = box_around(*diamond(mesh, h)), box_of(one), box_of(other)
     node = next_leaf(space, 0, box, since)
     while node != NONE:
@@ -77,7 +88,7 @@ def _first_cut(mesh, space, h, one, other, since):
             e = np.int64(space.order[at(place)])
             if e in (f, g) or space.changed[at(e)] < since:
                 continue
-            near = face_at(mesh, e)
+            near = _face_to_be(mesh, e, to_flip)
             near_box = box_of(near)
             if boxes_meet(near_box, one_box) and _are_refused(one, near, space.area_scale):
                 return e
@@ -89,11 +100,10 @@ def _first_cut(mesh, space, h, one, other, since):
 
 @jit
 def _blocker(mesh, space, h, since):
-    one, other = _new_faces(mesh, h)
     # These two are the same as ever.
-    if since == EVER and _are_refused(one, other, space.area_scale):
+    if since == EVER and _are_refused(*_new_faces(mesh, h), space.area_scale):
         return np.int64(h // 3)
-    return _first_cut(mesh, space, h, one, other, since)
+    return _first_cut(mesh, space, h, since, None)
 
 
 def blocker(mesh, space, h, since):
@@ -133,31 +143,11 @@ def has_rival(mesh, space, h, number, to_flip):
     h : int
         Half-edge.
     number : int
-        Number of the round.
+        Number of the round, the last one.
     to_flip : (m,) int32
         For each face that is to change in this round the half-edge that is to be flipped.
     """
-    f, g = np.int64(h // 3), np.int64(mesh.twin[at(h)] // 3)
-    one, other = _new_faces(mesh, h)
-    box, one_box, other_box = box_around(*diamond(mesh, h)), box_of(one), box_of(other)
-    node = next_leaf(space, 0, box, number)
-    while node != NONE:
-        start, stop = faces_at(space, node)
-        for place in range(start, stop):
-            e = np.int64(space.order[at(place)])
-            if e in (f, g) or space.changed[at(e)] != number:
-                continue
-            rival = np.int64(to_flip[at(e)])
-            near, opposite = _new_faces(mesh, rival)
-            if rival // 3 != e:
-                near = opposite
-            near_box = box_of(near)
-            if boxes_meet(near_box, one_box) and _are_refused(one, near, space.area_scale):
-                return True
-            if boxes_meet(near_box, other_box) and _are_refused(other, near, space.area_scale):
-                return True
-        node = next_leaf(space, after(node), box, number)
-    return False
+    return _first_cut(mesh, space, h, number, to_flip) != NONE
 
 
 @overload(blocker)

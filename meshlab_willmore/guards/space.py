@@ -17,12 +17,11 @@ from numba.extending import overload
 from ..mesh.halfedge import NONE, Mesh, diamond
 from ..mesh.jit import at, jit
 from ..mesh.workers import crew
+from .leaves import by_leaf, first_place
 
 # Faces in a leaf: half as many up to as many. More cost more tests, fewer cost memory.
 LEAF_FACES = 4
 SIDES = 6
-# Parts of the tree that are sorted side by side.
-BLOCKS = 16
 
 
 class Space(NamedTuple):
@@ -105,21 +104,17 @@ def space_of(mesh, exponent=0):
         leaves *= 2
     with np.errstate(over="ignore", under="ignore"):
         area_scale = float(np.ldexp(1.0, 2 * exponent))
-    order, nodes = np.arange(faces, dtype=np.int32), 2 * leaves - 1
+    nodes = 2 * leaves - 1
     space = Space(
         True,
         area_scale,
         np.empty((nodes, SIDES)),
-        order,
+        by_leaf(mesh, leaves),
         np.empty(faces, np.int32),
         np.zeros(faces, np.int32),
         np.zeros(nodes, np.int32),
     )
-    blocks = min(leaves, BLOCKS)
-    sorting = _Sorting(order, _middles(mesh), leaves, leaves // blocks)
     with crew() as share:
-        _split(sorting, 0, leaves, leaves // blocks)
-        share(_split_blocks, sorting, blocks, piece=1)
         share(_fill_leaves, _Index(mesh, space), leaves)
     _bound_nodes(space)
     return space
@@ -147,119 +142,13 @@ class _Index(NamedTuple):
 
 
 @jit
-def _middles(mesh):
-    """Return the middles of the boxes of all faces, twice as large (3, m)."""
-    middles = np.empty((3, len(mesh.origin) // 3))
-    for f in range(middles.shape[1]):
-        first = 3 * f
-        u, v, w = mesh.origin[at(first)], mesh.origin[at(first + 1)], mesh.origin[at(first + 2)]
-        for axis in range(3):
-            a = mesh.vertices[at(u), at(axis)]
-            b, c = mesh.vertices[at(v), at(axis)], mesh.vertices[at(w), at(axis)]
-            middles[at(axis), at(f)] = min(a, b, c) + max(a, b, c)
-    return middles
-
-
-@jit
-def _longest_axis(order, middles, start, stop):
-    """Return the axis along which the middles of some faces lie farthest apart."""
-    longest, best = -1.0, 0
-    for axis in range(3):
-        along = middles[axis]
-        least = most = along[order[start]]
-        for place in range(start + 1, stop):
-            middle = along[at(order[at(place)])]
-            least, most = min(least, middle), max(most, middle)
-        if most - least > longest:
-            longest, best = most - least, axis
-    return best
-
-
-@jit
-def _select(order, keys, first, last, middle):
-    """Reorder the places `first` .. `last`, so that no key before `middle` is above one after it.
-
-    Hoare's algorithm "Find".
-    """
-    while first < last:
-        pivot = keys[order[(first + last) // 2]]
-        i, j = first, last
-        while i <= j:
-            while keys[at(order[at(i)])] < pivot:
-                i += 1
-            while keys[at(order[at(j)])] > pivot:
-                j -= 1
-            if i <= j:
-                order[at(i)], order[at(j)] = order[at(j)], order[at(i)]
-                i += 1
-                j -= 1
-        if middle <= j:
-            last = j
-        elif middle >= i:
-            first = i
-        else:
-            return
-
-
-@jit
-def _start(leaf, faces, leaves):
-    """Return the first place of a leaf in the order; all leaves are the same size, or one more."""
-    return np.int64(leaf) * faces // leaves
-
-
-class _Sorting(NamedTuple):
-    """Faces that are being sorted into leaves.
-
-    Attributes
-    ----------
-    order : (m,) int32
-        The faces, changed in place.
-    middles : (3, m) float64
-        Their middles.
-    leaves, width : int
-        The number of all leaves, and of those that are sorted by themselves.
-    """
-
-    order: np.ndarray
-    middles: np.ndarray
-    leaves: int
-    width: int
-
-
-@jit
-def _split(sorting, first, last, least):
-    """Sort the faces of the leaves `first` up to `last`: halve them, then each half, and so on.
-
-    Until only `least` leaves are together.
-    """
-    order, faces, leaves = sorting.order, len(sorting.order), sorting.leaves
-    width = last - first
-    while width > least:
-        for leaf in range(first, last, width):
-            start = _start(leaf, faces, leaves)
-            middle = _start(leaf + width // 2, faces, leaves)
-            stop = _start(leaf + width, faces, leaves)
-            axis = _longest_axis(order, sorting.middles, start, stop)
-            _select(order, sorting.middles[axis], start, stop - 1, middle)
-        width //= 2
-
-
-@jit
-def _split_blocks(sorting, start, stop):
-    """Sort the faces of each of the blocks from `start` up to `stop` by themselves."""
-    for block in range(start, stop):
-        first = block * sorting.width
-        _split(sorting, first, first + sorting.width, 1)
-
-
-@jit
 def _bound_leaf(mesh, space, leaf):
     """Compute the box of a leaf again; tell whether it has changed."""
     faces, leaves = len(space.order), (len(space.box) + 1) // 2
     node, changed = leaves - 1 + leaf, False
     for axis in range(3):
         least, most = np.inf, -np.inf
-        for place in range(_start(leaf, faces, leaves), _start(leaf + 1, faces, leaves)):
+        for place in range(first_place(leaf, faces, leaves), first_place(leaf + 1, faces, leaves)):
             for h in range(3 * space.order[at(place)], 3 * space.order[at(place)] + 3):
                 value = mesh.vertices[at(mesh.origin[at(h)]), at(axis)]
                 least, most = min(least, value), max(most, value)
@@ -293,8 +182,8 @@ def _fill_leaves(index, first, last):
     """Write which faces the leaves from `first` up to `last` have, and their boxes."""
     space, leaves = index.space, (len(index.space.box) + 1) // 2
     for leaf in range(first, last):
-        stop = _start(leaf + 1, len(space.order), leaves)
-        for place in range(_start(leaf, len(space.order), leaves), stop):
+        stop = first_place(leaf + 1, len(space.order), leaves)
+        for place in range(first_place(leaf, len(space.order), leaves), stop):
             space.leaf[space.order[place]] = leaf
         _bound_leaf(index.mesh, space, leaf)
 
@@ -428,4 +317,4 @@ def faces_at(space, node):
     """Return where the faces of a leaf start and stop in ``space.order``."""
     inner = len(space.box) // 2
     faces, leaf = len(space.order), node - inner
-    return _start(leaf, faces, inner + 1), _start(leaf + 1, faces, inner + 1)
+    return first_place(leaf, faces, inner + 1), first_place(leaf + 1, faces, inner + 1)

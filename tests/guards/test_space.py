@@ -52,12 +52,15 @@ def unit_mesh(vertices, faces):
     return build(scaled, faces), exponent
 
 
-def shuffle(mesh, space, count, rng):
-    """Make random flips, and let the index follow."""
+def shuffle(mesh, space, count, rng, number=0):
+    """Make random flips, and let the index follow, or grow in a round."""
     for h in rng.integers(0, len(mesh.origin), count):
         if mesh.twin[h] != NONE and can_flip(mesh, h):
             flip(mesh, h)
-            spaces.follow(mesh, space, h)
+            if number:
+                spaces.grow(mesh, space, h, number)
+            else:
+                spaces.follow(mesh, space, h)
 
 
 @pytest.mark.heavy
@@ -151,10 +154,7 @@ def test_of_faces_that_changed_in_a_round_those_are_found_that_all_pairs_tell(na
     space = spaces.space_of(mesh, exponent)
     rng = np.random.default_rng(3)
     for number in (1, 2):
-        for h in rng.integers(0, len(mesh.origin), 30):
-            if mesh.twin[h] != NONE and can_flip(mesh, h):
-                flip(mesh, h)
-                spaces.grow(mesh, space, h, number)
+        shuffle(mesh, space, 30, rng, number)
     for h in np.flatnonzero(mesh.twin != NONE)[::3]:
         if not can_flip(mesh, h):
             continue

@@ -14,8 +14,9 @@ from meshlab_willmore.search.kernels import KERNELS, PLACED_KERNELS
 
 def called_from_python():
     """A dictionary of the kernels that plain functions name, and those of the searches, by name."""
-    cached = {id(kernel): kernel for kernel in jit.KERNELS}
     named = [value for function in _plain_functions() for value in _named_in(function)]
+    # Now that all modules are imported.
+    cached = {id(kernel): kernel for kernel in jit.KERNELS}
     listed = [kernel for row in (*KERNELS.values(), *PLACED_KERNELS.values()) for kernel in row]
     used = {id(value) for value in [*named, *listed]}
     return {_name(kernel): kernel for key, kernel in cached.items() if key in used}

@@ -18,7 +18,7 @@ sums. None of this has branches, so that loops over many edges become vector ins
 import math
 from typing import NamedTuple
 
-from ..mesh.jit import inlined, jit
+from ..mesh.jit import inlined, inner
 from ..mesh.points import cross, dot, subtract
 
 # An angle of which the sign is clear without an `atan2` is farther from zero than this (radians).
@@ -75,7 +75,7 @@ def turn(a_p, b_p, a_q, b_q):
     return Turn(r / size, s / size)
 
 
-@jit
+@inner
 def angle(a, b, p, q):
     """Return the angle in [0, pi] that `turn` returns as a complex number, for four points."""
     beta = turn(subtract(a, p), subtract(b, p), subtract(a, q), subtract(b, q))

@@ -7,17 +7,17 @@ the comparison: "Mesh optimisation based on Willmore energy", sections 1 and 2.
 import math
 
 from ..mesh.halfedge import diamond
-from ..mesh.jit import jit
+from ..mesh.jit import inner, jit
 from ..mesh.points import subtract
 from .triangles import ROUNDING, corners, has_coincident_corners, twice_area
 
 
-@jit
+@inner
 def _twice_area_of(a, b, c):
     return twice_area(subtract(b, a), subtract(c, b), subtract(a, c))
 
 
-@jit
+@inner
 def cost_reduction(mesh, h):
     """Return by how much the area drops when `h` is flipped.
 

@@ -19,7 +19,7 @@ sum too, and only the fold guard forbids it.
 import math
 
 from ..mesh.halfedge import diamond
-from ..mesh.jit import jit
+from ..mesh.jit import inner, jit
 from ..mesh.points import dot, subtract
 from .triangles import corners, has_coincident_corners, twice_area
 
@@ -30,7 +30,7 @@ from .triangles import corners, has_coincident_corners, twice_area
 FLATTEST = 2.0**24
 
 
-@jit
+@inner
 def _cotangents(a, b, c):
     """Return the sum of the cotangents of the angles of a triangle."""
     ab, bc, ca = subtract(b, a), subtract(c, b), subtract(a, c)
@@ -41,7 +41,7 @@ def _cotangents(a, b, c):
     return squares / four_areas
 
 
-@jit
+@inner
 def cost_reduction(mesh, h):
     """Return by how much the sum of the cotangents drops when `h` is flipped.
 

@@ -16,7 +16,7 @@ import math
 import numpy as np
 
 from ..mesh.halfedge import NONE, apex, diamond, following, previous
-from ..mesh.jit import jit
+from ..mesh.jit import inner, jit
 from ..mesh.points import angle_between, point, subtract
 from .angles import NO_ANGLES, add, radians
 from .triangles import has_coincident_corners, turn_between
@@ -24,7 +24,7 @@ from .triangles import has_coincident_corners, turn_between
 FULL_TURN = 2.0 * math.pi
 
 
-@jit
+@inner
 def _sides_at(mesh, h):
     """Return the vectors from the origin of `h` along the two sides of its face."""
     v = point(mesh.vertices, mesh.origin[h])
@@ -32,7 +32,7 @@ def _sides_at(mesh, h):
     return ahead, subtract(point(mesh.vertices, apex(mesh, h)), v)
 
 
-@jit
+@inner
 def _angles_outside(mesh, start, stop):
     """Sum the angles in the fan between the faces of two half-edges with the same origin.
 
@@ -54,7 +54,7 @@ def _angles_outside(mesh, start, stop):
     return angles, t != NONE
 
 
-@jit
+@inner
 def _drop(mesh, fan, sides):
     """Return what the absolute curvature at a corner loses when the diagonal there is taken out.
 
@@ -75,7 +75,7 @@ def _drop(mesh, fan, sides):
     return abs(FULL_TURN - split) - abs(FULL_TURN - whole)
 
 
-@jit
+@inner
 def cost_reduction(mesh, h):
     """Return by how much the total absolute Gaussian curvature drops when `h` is flipped.
 

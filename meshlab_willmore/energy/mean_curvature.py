@@ -12,7 +12,7 @@ face without a normal, at which bends would be hidden, has no cost reduction.
 import math
 
 from ..mesh.halfedge import NONE, apex, diamond, following, previous
-from ..mesh.jit import jit
+from ..mesh.jit import inner, jit
 from ..mesh.points import Point, angle_between, cross, dot, norm, point, subtract
 from .triangles import ROUNDING, has_coincident_corners
 
@@ -22,7 +22,7 @@ FLATTEST = 1e-7
 NO_NORMAL = Point(0.0, 0.0, 0.0)
 
 
-@jit
+@inner
 def _normal(a, b, c):
     """Return a normal of the triangle (a, b, c), `NO_NORMAL` if it is too flat to have one."""
     ab, bc, ca = subtract(b, a), subtract(c, b), subtract(a, c)
@@ -32,12 +32,12 @@ def _normal(a, b, c):
     return vector
 
 
-@jit
+@inner
 def _is_none(vector):
     return vector.x == 0.0 and vector.y == 0.0 and vector.z == 0.0
 
 
-@jit
+@inner
 def _side(mesh, side, a, b, before, after):
     """Return what the half-edge `side` from a to b has when its face turns, before and after."""
     t = mesh.twin[side]
@@ -48,7 +48,7 @@ def _side(mesh, side, a, b, before, after):
     return length * angle_between(before, outside), length * angle_between(after, outside)
 
 
-@jit
+@inner
 def cost_reduction(mesh, h):
     """Return by how much the total absolute mean curvature drops when `h` is flipped.
 

@@ -2,7 +2,7 @@
 
 import math
 
-from ..mesh.jit import jit
+from ..mesh.jit import inner
 from ..mesh.points import cross, dot, norm, point
 from .angles import Turn
 
@@ -11,7 +11,7 @@ from .angles import Turn
 ROUNDING = 1e-13
 
 
-@jit
+@inner
 def corners(mesh, f):
     """Return the three points of the face `f`."""
     return (
@@ -21,7 +21,7 @@ def corners(mesh, f):
     )
 
 
-@jit
+@inner
 def twice_area(ab, bc, ca):
     """Return twice the area of the triangle with these side vectors.
 
@@ -36,7 +36,7 @@ def twice_area(ab, bc, ca):
     return norm(cross(ab, bc))
 
 
-@jit
+@inner
 def turn_between(a, b):
     """Return the angle between two vectors as a Turn of length 1; none if one of them is zero."""
     r, normal = dot(a, b), cross(a, b)
@@ -47,12 +47,12 @@ def turn_between(a, b):
     return Turn(r / size, math.sqrt(s2) / size)
 
 
-@jit
+@inner
 def _coincide(a, b):
     return a.x == b.x and a.y == b.y and a.z == b.z
 
 
-@jit
+@inner
 def has_coincident_corners(quad):
     """Tell whether two corners of the diamond are the same point: no energy judges such a flip."""
     i, j, k, l = quad

@@ -24,7 +24,7 @@ changes W as usual and the penalty of two faces.
 import math
 
 from ..mesh.halfedge import diamond
-from ..mesh.jit import jit
+from ..mesh.jit import inner, jit
 from ..mesh.points import dot, subtract
 from . import willmore
 from .angles import NO_ANGLES, Turn, add, radians
@@ -35,7 +35,7 @@ EXCESS_WEIGHT = 8.0
 OF_EACH_FACE = 2.0 * math.pi
 
 
-@jit
+@inner
 def _add_if_obtuse(angles, arriving, leaving):
     """Add what the angle between two successive sides exceeds a right angle by, if it does."""
     if not dot(arriving, leaving) > 0.0:
@@ -45,7 +45,7 @@ def _add_if_obtuse(angles, arriving, leaving):
     return add(angles, Turn(exterior.s, exterior.r))
 
 
-@jit
+@inner
 def _add_excess(angles, a, b, c):
     """Add what the largest angle of the triangle (a, b, c) exceeds a right angle by."""
     ab, bc, ca = subtract(b, a), subtract(c, b), subtract(a, c)
@@ -54,7 +54,7 @@ def _add_excess(angles, a, b, c):
     return _add_if_obtuse(angles, bc, ca)
 
 
-@jit
+@inner
 def cost_reduction(mesh, h):
     """Return by how much the energy drops when `h` is flipped.
 

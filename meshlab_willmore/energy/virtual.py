@@ -12,7 +12,7 @@ For other places on the diagonals see `virtual_closest` and `virtual_at`.
 import math
 
 from ..mesh.halfedge import Diamond, diamond
-from ..mesh.jit import inlined, jit
+from ..mesh.jit import inlined, inner
 from ..mesh.points import from_middle, subtract
 from . import willmore
 from .angles import add, difference, radians, turn
@@ -76,7 +76,7 @@ def drop(quad, sides):
     return difference(before, after)
 
 
-@jit
+@inner
 def cost_reduction(mesh, h):
     """Return by how much the virtual Willmore energy drops when `h` is flipped.
 

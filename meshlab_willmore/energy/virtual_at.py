@@ -12,14 +12,14 @@ section 5.
 import math
 
 from ..mesh.halfedge import Diamond, diamond
-from ..mesh.jit import jit
+from ..mesh.jit import inner
 from ..mesh.points import from_between
 from .angles import difference, radians
 from .sides import sides_of
 from .virtual import virtual_angles
 
 
-@jit
+@inner
 def spokes_at(quad, a, b, t):
     """Return the vectors to the corners of the quad from the point ``a + t (b - a)``."""
     return Diamond(
@@ -30,7 +30,7 @@ def spokes_at(quad, a, b, t):
     )
 
 
-@jit
+@inner
 def _drop(quad, sides, a, b, c, d, t):
     """Return the drop, in radians, for the points that divide a-b and c-d as t to 1 - t."""
     before = virtual_angles(quad, sides, spokes_at(quad, a, b, t))
@@ -38,7 +38,7 @@ def _drop(quad, sides, a, b, c, d, t):
     return radians(difference(before, after))
 
 
-@jit
+@inner
 def cost_reduction(mesh, h, t):
     """Return by how much the virtual Willmore energy drops when `h` is flipped.
 

@@ -18,7 +18,7 @@ section 5. Closest points of segments: C. Ericson, "Real-Time Collision Detectio
 import math
 
 from ..mesh.halfedge import diamond
-from ..mesh.jit import jit
+from ..mesh.jit import inner
 from ..mesh.points import cross, dot, subtract
 from .angles import difference, radians
 from .sides import sides_of
@@ -33,13 +33,13 @@ MIDDLE = 0.5
 PARALLEL = 1e-16
 
 
-@jit
+@inner
 def _inside(place):
     """Return the place on a segment in [0, 1], moved away from its ends."""
     return min(max(place, MARGIN), 1.0 - MARGIN)
 
 
-@jit
+@inner
 def _beside_each_other(u, w, r):
     """Return the places of the virtual points on parallel diagonals, given as in `closest`."""
     squared, along = dot(u, u), dot(w, u)
@@ -53,7 +53,7 @@ def _beside_each_other(u, w, r):
     return _inside(middle), _inside((middle - start) / step)
 
 
-@jit
+@inner
 def closest(quad):
     """Return where on the diagonals i-j and k-l the virtual points stand.
 
@@ -81,7 +81,7 @@ def closest(quad):
     return a, b
 
 
-@jit
+@inner
 def cost_reduction(mesh, h):
     """Return by how much the virtual Willmore energy drops when `h` is flipped.
 

@@ -12,7 +12,7 @@ the four sides of the quad: the third corner of the face inside is now an end of
 import math
 
 from ..mesh.halfedge import diamond
-from ..mesh.jit import inlined, jit
+from ..mesh.jit import inlined, inner, jit
 from ..mesh.points import subtract
 from .angles import angle, difference, radians, turn
 from .sides import View, Views, side_angles, sides_of
@@ -63,7 +63,7 @@ def drop(quad, sides):
     return difference(before, after)
 
 
-@jit
+@inner
 def cost_reduction(mesh, h):
     """Return by how much the energy drops when `h` is flipped.
 
@@ -89,7 +89,7 @@ def edge_turn(mesh, h):
     return turn(subtract(i, k), subtract(j, k), subtract(i, l), subtract(j, l))
 
 
-@jit
+@inner
 def edge_angle(mesh, h):
     """Return the intersection angle at `h`, which has a twin; NaN where it is undefined."""
     quad = diamond(mesh, h)

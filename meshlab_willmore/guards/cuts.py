@@ -8,7 +8,7 @@ import numpy as np
 from numba.extending import overload
 
 from ..mesh.halfedge import NONE, apex, diamond
-from ..mesh.jit import at, jit
+from ..mesh.jit import at, inner, jit
 from .faces import are_seen_apart, count_as_cut, cut_exactly, face_of, from_corner, match
 from .space import after, box_around, faces_at, is_none, next_leaf
 
@@ -16,7 +16,7 @@ from .space import after, box_around, faces_at, is_none, next_leaf
 EVER = 0
 
 
-@jit
+@inner
 def boxes_meet(one, other):
     """Tell whether two closed boxes share a point."""
     return (
@@ -29,7 +29,7 @@ def boxes_meet(one, other):
     )
 
 
-@jit
+@inner
 def face_at(mesh, f):
     """Return the face `f` as it is now."""
     first = 3 * f
@@ -37,13 +37,13 @@ def face_at(mesh, f):
     return face_of(mesh.vertices, u, v, w)
 
 
-@jit
+@inner
 def box_of(face):
     """Return the box of a face."""
     return box_around(face.a, face.b, face.c, face.c)
 
 
-@jit
+@inner
 def _are_refused(one, other, area_scale):
     """Tell whether two faces count as cut."""
     common = match(one, other)
@@ -52,7 +52,7 @@ def _are_refused(one, other, area_scale):
     return count_as_cut(one, other, common, area_scale) or cut_exactly(one, other, common)
 
 
-@jit
+@inner
 def _new_faces(mesh, h):
     """Return the two faces that the flip of `h` makes, each with its corners in their places."""
     t = mesh.twin[h]
@@ -62,7 +62,7 @@ def _new_faces(mesh, h):
     return from_corner(one, (3 - h % 3) % 3), from_corner(other, (3 - t % 3) % 3)
 
 
-@jit
+@inner
 def _face_to_be(mesh, e, to_flip):
     """Return the face `e` as the flips will make it; with None as it is."""
     if to_flip is None:
@@ -72,7 +72,7 @@ def _face_to_be(mesh, e, to_flip):
     return one if h // 3 == e else other
 
 
-@jit
+@inner
 def _first_cut(mesh, space, h, since, to_flip):
     """Return a face besides those at `h` that one of the new faces would cut, or `NONE`.
 
@@ -98,7 +98,7 @@ def _first_cut(mesh, space, h, since, to_flip):
     return NONE
 
 
-@jit
+@inner
 def _blocker(mesh, space, h, since):
     # These two are the same as ever.
     if since == EVER and _are_refused(*_new_faces(mesh, h), space.area_scale):
@@ -130,7 +130,7 @@ def blocker(mesh, space, h, since):
     return _blocker(mesh, space, h, since) if space.active else NONE
 
 
-@jit
+@inner
 def has_rival(mesh, space, h, number, to_flip):
     """Tell whether a new face of `h` would cut one that another flip of the same round makes.
 
@@ -155,7 +155,7 @@ def _compiled_blocker(mesh, space, h, since):
     return (lambda mesh, space, h, since: NONE) if is_none(space) else blocker
 
 
-@jit
+@inner
 def would_cut(mesh, space, h):
     """Tell whether the flip of `h` is refused, as `blocker` does; never if nothing is active."""
     return blocker(mesh, space, h, EVER) != NONE

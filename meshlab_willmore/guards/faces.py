@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from ..mesh.jit import jit
+from ..mesh.jit import inner
 from ..mesh.points import Point, point
 from . import rounded, triangles
 
@@ -21,13 +21,13 @@ class Face(NamedTuple):
     c: Point
 
 
-@jit
+@inner
 def face_of(vertices, u, v, w):
     """Return the face with the corners u, v, w, rows of `vertices` (n, 3)."""
     return Face(u, v, w, point(vertices, u), point(vertices, v), point(vertices, w))
 
 
-@jit
+@inner
 def from_corner(face, corner):
     """Return the same face, read from another corner on."""
     if corner == 0:
@@ -37,7 +37,7 @@ def from_corner(face, corner):
     return Face(face.w, face.u, face.v, face.c, face.a, face.b)
 
 
-@jit
+@inner
 def _place(face, u):
     """Return which corner of the face is vertex `u`, or `NOWHERE`."""
     if face.u == u:
@@ -58,7 +58,7 @@ class Match(NamedTuple):
     other: int
 
 
-@jit
+@inner
 def match(one, other):
     """Return the common vertices of two faces."""
     u, v, w = _place(other, one.u), _place(other, one.v), _place(other, one.w)
@@ -75,7 +75,7 @@ def match(one, other):
     return Match(CORNERS, NOWHERE, NOWHERE)
 
 
-@jit
+@inner
 def cut_exactly(one, other, common):
     """Tell whether two faces cut each other; `common` is their match."""
     if common.shared == 0:
@@ -88,12 +88,12 @@ def cut_exactly(one, other, common):
     return triangles.meet_beyond(p.b, p.c, p.a, q.a)
 
 
-@jit
+@inner
 def _spans_touch_at_most(a, b, c, p, q, r):
     return max(a, b, c) <= min(p, q, r) or max(p, q, r) <= min(a, b, c)
 
 
-@jit
+@inner
 def _boxes_touch_at_most(one, other):
     """Tell whether the boxes of two faces have no interior point in common."""
     a, b, c, p, q, r = one.a, one.b, one.c, other.a, other.b, other.c
@@ -104,7 +104,7 @@ def _boxes_touch_at_most(one, other):
     )
 
 
-@jit
+@inner
 def count_as_cut(one, other, common, area_scale):
     """Tell whether MeshLab may count two faces as cut, whichever it looks at first.
 
@@ -124,7 +124,7 @@ def count_as_cut(one, other, common, area_scale):
     ) or rounded.side_meets(q.a, q.b, q.c, one.a, one.b, one.c, area_scale)
 
 
-@jit
+@inner
 def are_seen_apart(one, other, common, area_scale):
     """Tell, the quick way, that two faces neither cut each other nor count as cut.
 

@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 from ..mesh.halfedge import diamond
-from ..mesh.jit import jit
+from ..mesh.jit import inner
 from ..mesh.points import angle_between, dot, norm, normal, subtract
 
 FLAT_ANGLE = 180.0
@@ -38,7 +38,7 @@ def fold_limits(foldangle):
     return FoldLimits(foldangle < FLAT_ANGLE, math.radians(foldangle))
 
 
-@jit
+@inner
 def triangle_shape(a, b, c):
     """Return 4 sqrt(3) area / (sum of squared sides): 1 if equilateral, 0 if degenerate."""
     ab, bc, ca = subtract(b, a), subtract(c, b), subtract(a, c)
@@ -48,14 +48,14 @@ def triangle_shape(a, b, c):
     return SHAPE_OF_EQUILATERAL * norm(normal(a, b, c)) / squares
 
 
-@jit
+@inner
 def dihedral_angle(mesh, h):
     """Return the angle between the normals at `h`, which has a twin; 0 if one is zero."""
     i, j, k, l = diamond(mesh, h)
     return angle_between(normal(i, j, k), normal(j, i, l))
 
 
-@jit
+@inner
 def folds(mesh, h, limits):
     """Tell whether to flip `h` would fold the surface or make a sliver.
 

@@ -7,14 +7,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..mesh.jit import at, jit
+from ..mesh.jit import at, inner, jit
 from ..mesh.workers import crew
 
 # Parts that are sorted side by side.
 BLOCKS = 16
 
 
-@jit
+@inner
 def first_place(leaf, faces, leaves):
     """Return the first place of a leaf in the order; all leaves are the same size, or one more."""
     return np.int64(leaf) * faces // leaves
@@ -34,7 +34,7 @@ def _middles(mesh):
     return middles
 
 
-@jit
+@inner
 def _longest_axis(order, middles, start, stop):
     """Return the axis along which the middles of some faces lie farthest apart."""
     longest, best = -1.0, 0
@@ -49,7 +49,7 @@ def _longest_axis(order, middles, start, stop):
     return best
 
 
-@jit
+@inner
 def _select(order, keys, first, last, middle):
     """Reorder the places `first` .. `last`, so that no key before `middle` is above one after it.
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..mesh.build import sort_by_vertex
 from ..mesh.halfedge import NONE, diamond, following, previous
-from ..mesh.jit import jit
+from ..mesh.jit import inner, jit
 from .fold import dihedral_angle, triangle_shape
 
 # Files hold coordinates in single precision: that far, in radians, the angles of a technical part
@@ -19,7 +19,7 @@ CREASE_SLACK = math.radians(0.01)
 CREASE_SHAPE = 1e-5
 
 
-@jit
+@inner
 def _lock(mesh, h):
     mesh.locked[h] = True
     if mesh.twin[h] != NONE:
@@ -49,7 +49,7 @@ def lock_creases(mesh, limit):
             _lock(mesh, h)
 
 
-@jit
+@inner
 def _is_degenerate(mesh, h):
     """Tell whether one of the two faces at `h` has no normal to speak of."""
     i, j, k, l = diamond(mesh, h)

@@ -13,7 +13,7 @@ what is left of it.
 
 import numpy as np
 
-from ..mesh.jit import jit
+from ..mesh.jit import inner
 from ..mesh.points import Point, cross, dot, subtract
 
 # Half a unit in the last place, relative.
@@ -31,14 +31,14 @@ ROOM_2D = 6 * 2
 ROOM_3D = 24 * 4
 
 
-@jit
+@inner
 def _tail_of_sum(a, b, rounded):
     """Return exactly what `rounded`, the float a + b, lacks."""
     b_part = rounded - a
     return (a - (rounded - b_part)) + (b - b_part)
 
 
-@jit
+@inner
 def _tail_of_product(a, b, rounded):
     """Return exactly what `rounded`, the float a * b, lacks."""
     a_big = SPLITTER * a
@@ -50,7 +50,7 @@ def _tail_of_product(a, b, rounded):
     return a_low * b_low - (((rounded - a_high * b_high) - a_low * b_high) - a_high * b_low)
 
 
-@jit
+@inner
 def _add(expansion, count, value):
     """Add `value` to the first `count` floats, in place; return how many there are now.
 
@@ -70,21 +70,21 @@ def _add(expansion, count, value):
     return kept
 
 
-@jit
+@inner
 def _add_product(expansion, count, a, b):
     rounded = a * b
     count = _add(expansion, count, _tail_of_product(a, b, rounded))
     return _add(expansion, count, rounded)
 
 
-@jit
+@inner
 def _add_triple(expansion, count, a, b, c):
     rounded = a * b
     count = _add_product(expansion, count, _tail_of_product(a, b, rounded), c)
     return _add_product(expansion, count, rounded, c)
 
 
-@jit
+@inner
 def _add_determinant(expansion, count, a, b, c):
     """Add the determinant of the rows `a`, `b`, `c`."""
     count = _add_triple(expansion, count, a.x, b.y, c.z)
@@ -95,25 +95,25 @@ def _add_determinant(expansion, count, a, b, c):
     return _add_triple(expansion, count, -a.y, b.x, c.z)
 
 
-@jit
+@inner
 def _negative(a):
     return Point(-a.x, -a.y, -a.z)
 
 
-@jit
+@inner
 def _sign(value):
     if value > 0.0:
         return 1
     return -1 if value < 0.0 else 0
 
 
-@jit
+@inner
 def _sign_of(expansion, count):
     """Return the sign of the sum, which is that of the largest float."""
     return 0 if count == 0 else _sign(expansion[count - 1])
 
 
-@jit
+@inner
 def _tails(a, d, rounded):
     """Return what the vector `rounded` from `d` to `a` lacks."""
     return Point(
@@ -123,12 +123,12 @@ def _tails(a, d, rounded):
     )
 
 
-@jit
+@inner
 def _is_zero(a):
     return a.x == 0.0 and a.y == 0.0 and a.z == 0.0
 
 
-@jit
+@inner
 def _orient3d_again(a, b, c, d, size):
     """Do what `orient3d` does, where the error bound times `size` is too large."""
     # Seldom reached: an array of its own costs less than one that every caller carries along.
@@ -150,7 +150,7 @@ def _orient3d_again(a, b, c, d, size):
     return _sign_of(expansion, _add_determinant(expansion, count, _negative(b), c, d))
 
 
-@jit
+@inner
 def orient3d(a, b, c, d):
     """Return the sign, -1, 0 or 1, of the determinant of the rows a - d, b - d, c - d.
 
@@ -173,7 +173,7 @@ def orient3d(a, b, c, d):
     return _orient3d_again(a, b, c, d, size)
 
 
-@jit
+@inner
 def _orient2d_again(ax, ay, bx, by, cx, cy):
     expansion = np.empty(ROOM_2D)
     count = _add_product(expansion, 0, ax, by)
@@ -184,7 +184,7 @@ def _orient2d_again(ax, ay, bx, by, cx, cy):
     return _sign_of(expansion, _add_product(expansion, count, cy, bx))
 
 
-@jit
+@inner
 def orient2d(ax, ay, bx, by, cx, cy):
     """Return 1 where (a, b, c) go round counter-clockwise in the plane, -1 clockwise, 0 in line."""
     left, right = (ax - cx) * (by - cy), (ay - cy) * (bx - cx)
@@ -194,7 +194,7 @@ def orient2d(ax, ay, bx, by, cx, cy):
     return _orient2d_again(ax, ay, bx, by, cx, cy)
 
 
-@jit
+@inner
 def turn(a, b, c, axis):
     """Return `orient2d` of the shadows of three points along the `axis` 0, 1 or 2."""
     if axis == 0:

@@ -16,7 +16,7 @@ and without a bit it does not know which pairs it has seen. So the guard asks in
 Coordinates scaled by a power of two give the same answers, but for one absolute limit.
 """
 
-from ..mesh.jit import jit
+from ..mesh.jit import inner
 from ..mesh.points import Point, cross, dot, norm, subtract
 
 # MeshLab's limit for determinants, in squared units of the coordinates, and for weights.
@@ -31,7 +31,7 @@ ROUNDING_OF_AREAS = 1e-7
 ROUNDING_OF_POINTS = 1e-14
 
 
-@jit
+@inner
 def _unit(a):
     length = norm(a)
     if length > 0.0:
@@ -39,29 +39,29 @@ def _unit(a):
     return a
 
 
-@jit
+@inner
 def _heights(n, offset, a, b, c):
     return Point(dot(n, a) + offset, dot(n, b) + offset, dot(n, c) + offset)
 
 
-@jit
+@inner
 def _is_beside(heights):
     return heights.x * heights.y > 0.0 and heights.x * heights.z > 0.0
 
 
-@jit
+@inner
 def _is_level(heights):
     return heights.x == 0.0 and heights.y == 0.0 and heights.z == 0.0
 
 
-@jit
+@inner
 def _along(a, axis):
     if axis == 0:
         return a.x
     return a.y if axis == 1 else a.z
 
 
-@jit
+@inner
 def _longest_axis(d):
     """Return the axis of the largest component, the first one of equals."""
     x, y, z = abs(d.x), abs(d.y), abs(d.z)
@@ -70,7 +70,7 @@ def _longest_axis(d):
     return 2 if z > x else 0
 
 
-@jit
+@inner
 def _interval(a, b, c, heights):
     """Return the two ends of a triangle on the line of both planes, as start, rises and drops.
 
@@ -89,7 +89,7 @@ def _interval(a, b, c, heights):
     return c, (a - c) * z, (b - c) * z, z - x, z - y
 
 
-@jit
+@inner
 def triangles_meet(a, b, c, p, q, r):
     """Tell whether MeshLab says that two triangles without a common vertex meet.
 
@@ -121,7 +121,7 @@ def triangles_meet(a, b, c, p, q, r):
     return not (max(one, two) < min(three, four) or max(three, four) < min(one, two))
 
 
-@jit
+@inner
 def _shadow(a, axis):
     """Return what is left of a point once one coordinate is dropped."""
     if axis == 0:
@@ -129,7 +129,7 @@ def _shadow(a, axis):
     return (a.x, a.z) if axis == 1 else (a.x, a.y)
 
 
-@jit
+@inner
 def _dropped_axis(n):
     x, y, z = abs(n.x), abs(n.y), abs(n.z)
     if x > y:
@@ -137,7 +137,7 @@ def _dropped_axis(n):
     return 1 if z <= y else 2
 
 
-@jit
+@inner
 def _sides_meet(a, b, p, q):
     """Tell whether two segments of the plane meet (F. Antonio, Graphics Gems III, 1992)."""
     ax, ay = b[0] - a[0], b[1] - a[1]
@@ -151,19 +151,19 @@ def _sides_meet(a, b, p, q):
     return False
 
 
-@jit
+@inner
 def _height_over(p, a, b):
     x, y = b[1] - a[1], -(b[0] - a[0])
     return x * p[0] + y * p[1] + (-x * a[0] - y * a[1])
 
 
-@jit
+@inner
 def _is_inside(p, a, b, c):
     first = _height_over(p, a, b)
     return first * _height_over(p, b, c) > 0.0 and first * _height_over(p, c, a) > 0.0
 
 
-@jit
+@inner
 def _shadows_meet(n, one, other):
     """Tell whether two triangles in the plane with the normal `n` meet."""
     axis = _dropped_axis(n)
@@ -175,12 +175,12 @@ def _shadows_meet(n, one, other):
     return _is_inside(a, p, q, r) or _is_inside(p, a, b, c)
 
 
-@jit
+@inner
 def _halfway(s, a):
     return Point(a.x * HALF + s.x * HALF, a.y * HALF + s.y * HALF, a.z * HALF + s.z * HALF)
 
 
-@jit
+@inner
 def side_meets(s, p, q, a, b, c, area_scale):
     """Tell whether MeshLab says that the side p-q opposite to `s` meets a triangle that has `s`.
 

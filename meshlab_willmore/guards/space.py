@@ -15,7 +15,7 @@ from numba import types
 from numba.extending import overload
 
 from ..mesh.halfedge import NONE, Mesh, diamond
-from ..mesh.jit import at, jit
+from ..mesh.jit import at, inner, jit
 from ..mesh.workers import crew
 from .leaves import by_leaf, first_place
 
@@ -141,7 +141,7 @@ class _Index(NamedTuple):
     space: Space
 
 
-@jit
+@inner
 def _bound_leaf(mesh, space, leaf):
     """Compute the box of a leaf again; tell whether it has changed."""
     faces, leaves = len(space.order), (len(space.box) + 1) // 2
@@ -156,7 +156,7 @@ def _bound_leaf(mesh, space, leaf):
     return changed
 
 
-@jit
+@inner
 def _bound_node(space, node):
     """Compute the box of an inner node again; tell whether it has changed."""
     changed = False
@@ -168,7 +168,7 @@ def _bound_node(space, node):
     return changed
 
 
-@jit
+@inner
 def _set_span(space, node, axis, least, most):
     row, low, high = at(node), at(axis), at(3 + axis)
     if space.box[row, low] == least and space.box[row, high] == most:
@@ -194,7 +194,7 @@ def _bound_nodes(space):
         _bound_node(space, node)
 
 
-@jit
+@inner
 def _rebound(mesh, space, f):
     """Compute the boxes that hold the face `f` again."""
     leaf = np.int64(space.leaf[f])
@@ -217,7 +217,7 @@ def _compiled_follow(mesh, space, h):
     return (lambda mesh, space, h: None) if is_none(space) else follow
 
 
-@jit
+@inner
 def _hold(space, f, box, number):
     """Make the boxes above the face `f`, changed in this round, hold `box`."""
     space.changed[f] = number
@@ -238,7 +238,7 @@ def _hold(space, f, box, number):
         node = (node - 1) // 2
 
 
-@jit
+@inner
 def grow(mesh, space, h, number):
     """Do what `follow` does, before or after the flip, and note the round.
 
@@ -259,7 +259,7 @@ def grow(mesh, space, h, number):
     _hold(space, np.int64(mesh.twin[at(h)] // 3), box, number)
 
 
-@jit
+@inner
 def box_around(a, b, c, d):
     """Return least x, y, z and largest x, y, z of four points."""
     return (
@@ -272,7 +272,7 @@ def box_around(a, b, c, d):
     )
 
 
-@jit
+@inner
 def next_leaf(space, node, box, since):
     """Return the first node from `node` on, in the order of the tree, that is a leaf in reach.
 
@@ -303,7 +303,7 @@ def next_leaf(space, node, box, since):
     return NONE
 
 
-@jit
+@inner
 def after(node):
     """Return the node that follows `node` and all below it, or `NONE`."""
     # Right children have even numbers.
@@ -312,7 +312,7 @@ def after(node):
     return node + 1 if node > 0 else NONE
 
 
-@jit
+@inner
 def faces_at(space, node):
     """Return where the faces of a leaf start and stop in ``space.order``."""
     inner = len(space.box) // 2

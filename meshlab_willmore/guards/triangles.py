@@ -16,7 +16,7 @@ make turns vanish. So segments of one plane meet where all their shadows do, and
 any shadow shows it.
 """
 
-from ..mesh.jit import inlined, jit
+from ..mesh.jit import inlined, inner
 from ..mesh.points import Point, add, norm, subtract
 from .predicates import orient3d, turn
 
@@ -26,24 +26,24 @@ AXES = 3
 BOUND_PRODUCT, LEAST = 1e-15, 1e-290
 
 
-@jit
+@inner
 def _coordinate(a, axis):
     if axis == 0:
         return a.x
     return a.y if axis == 1 else a.z
 
 
-@jit
+@inner
 def _is_same(a, b):
     return a.x == b.x and a.y == b.y and a.z == b.z
 
 
-@jit
+@inner
 def _is_in_line(a, b, c):
     return turn(a, b, c, 0) == 0 and turn(a, b, c, 1) == 0 and turn(a, b, c, 2) == 0
 
 
-@jit
+@inner
 def _is_in_box(p, a, b):
     """Tell whether `p` is in the box around `a` and `b`."""
     return (
@@ -53,13 +53,13 @@ def _is_in_box(p, a, b):
     )
 
 
-@jit
+@inner
 def _is_between(p, a, b):
     """Tell whether `p` is on the closed segment from `a` to `b`."""
     return _is_in_box(p, a, b) and _is_in_line(p, a, b)
 
 
-@jit
+@inner
 def _spans_overlap(p, q, a, b, axis):
     p, q, a, b = (
         _coordinate(p, axis),
@@ -70,7 +70,7 @@ def _spans_overlap(p, q, a, b, axis):
     return max(p, q) >= min(a, b) and max(a, b) >= min(p, q)
 
 
-@jit
+@inner
 def _shadows_meet(p, q, a, b, axis):
     """Tell whether the shadows of two segments along `axis` share a point."""
     if not (
@@ -85,7 +85,7 @@ def _shadows_meet(p, q, a, b, axis):
     )
 
 
-@jit
+@inner
 def segments_meet(p, q, a, b):
     """Tell whether the closed segments p-q and a-b share a point."""
     for axis in range(AXES):
@@ -94,7 +94,7 @@ def segments_meet(p, q, a, b):
     return orient3d(p, q, a, b) == 0
 
 
-@jit
+@inner
 def _is_inside(p, a, b, c):
     """Tell whether `p`, in a plane with the triangle, is in its interior."""
     for axis in range(AXES):
@@ -104,7 +104,7 @@ def _is_inside(p, a, b, c):
     return False
 
 
-@jit
+@inner
 def segment_meets(p, q, a, b, c):
     """Tell whether the closed segment p-q and the closed triangle (a, b, c) share a point."""
     at_p, at_q = orient3d(a, b, c, p), orient3d(a, b, c, q)
@@ -118,19 +118,19 @@ def segment_meets(p, q, a, b, c):
     return min(first, second, third) >= 0 or max(first, second, third) <= 0
 
 
-@jit
+@inner
 def _meets_two(p, q, b, c, a):
     return segments_meet(p, q, b, c) or segments_meet(p, q, c, a)
 
 
-@jit
+@inner
 def _is_beside(a, b, c, p, q, r):
     """Tell whether p, q, r are strictly on one side of the plane of (a, b, c)."""
     first = orient3d(a, b, c, p)
     return first != 0 and orient3d(a, b, c, q) == first and orient3d(a, b, c, r) == first
 
 
-@jit
+@inner
 def triangles_meet(a, b, c, p, q, r):
     """Tell whether two closed triangles share a point.
 
@@ -148,7 +148,7 @@ def triangles_meet(a, b, c, p, q, r):
     )
 
 
-@jit
+@inner
 def _meet_besides(s, a, b, c, d):
     """Do what `meet_besides` does for sides a-b and c-d that `s` is not on.
 
@@ -179,7 +179,7 @@ def _extent(a):
     return abs(a.x) + abs(a.y) + abs(a.z)
 
 
-@jit
+@inner
 def are_apart(s, a, b, c, d, limit, share):
     """Tell whether a plane through `s` is seen to have a, b on one side and c, d on the other.
 
@@ -208,7 +208,7 @@ def are_apart(s, a, b, c, d, limit, share):
     )
 
 
-@jit
+@inner
 def meet_besides(s, a, b, c, d):
     """Tell whether the triangles (s, a, b) and (s, c, d) share a point besides `s`."""
     # A triangle with s on its far side is two segments from s.
@@ -229,7 +229,7 @@ def meet_besides(s, a, b, c, d):
     return False
 
 
-@jit
+@inner
 def _are_ahead(s, t, a, b):
     """Tell whether `a` and `b`, on the line of `s` and `t`, are both beyond `t`."""
     for axis in range(AXES):
@@ -240,7 +240,7 @@ def _are_ahead(s, t, a, b):
     return False
 
 
-@jit
+@inner
 def meet_beyond(s, t, a, b):
     """Tell whether the triangles (s, t, a) and (s, t, b) share a point off the segment s-t."""
     if orient3d(s, t, a, b) != 0:

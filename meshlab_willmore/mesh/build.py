@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .halfedge import NONE, Mesh, following, next_in_fan
-from .jit import at, jit
+from .jit import at, inner, jit
 from .workers import crew
 
 # Half-edges of one vertex that are sorted by insertion, which takes quadratic time.
@@ -51,7 +51,7 @@ def _count_by_low(faces, starts):
     return most
 
 
-@jit
+@inner
 def _sort_slice(high, half_edge, start, stop):
     """Sort a slice of two arrays by the first, stably; in linear time if it is in order."""
     for place in range(start + 1, stop):
@@ -62,7 +62,7 @@ def _sort_slice(high, half_edge, start, stop):
         high[at(hole)], half_edge[at(hole)] = v, h
 
 
-@jit
+@inner
 def _pair_slice(origin, twin, high, half_edge, start, stop):
     """Write the twins of the half-edges from one vertex to higher ones, or back, in order."""
     while start < stop:

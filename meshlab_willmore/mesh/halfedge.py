@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .jit import at, inlined, jit
+from .jit import at, inlined, inner, jit
 from .points import Point, norm, point, subtract
 
 NONE = -1
@@ -108,7 +108,7 @@ def lengths_of_sides(mesh):
     return lengths
 
 
-@jit
+@inner
 def next_in_fan(mesh, h):
     """Return the half-edge after `h` in the fan of faces around its origin.
 
@@ -130,7 +130,7 @@ def _has_corner(mesh, h, v):
     return mesh.origin[at(following(h))] == v or mesh.origin[at(previous(h))] == v
 
 
-@jit
+@inner
 def are_joined(mesh, a, b):
     """Tell whether an edge joins the origins of the half-edges `a` and `b`; also if in doubt.
 
@@ -162,7 +162,7 @@ def are_joined(mesh, a, b):
             return False
 
 
-@jit
+@inner
 def is_free(mesh, h):
     """Tell whether `h` has a twin, is not locked, and leaves i and j enough edges when flipped.
 
@@ -177,14 +177,14 @@ def is_free(mesh, h):
     return ((k_i != NONE) | (i_l != NONE)) & ((j_k != NONE) | (l_j != NONE))
 
 
-@jit
+@inner
 def makes_new_edge(mesh, h):
     """Tell whether k and l, the ends of `h` if it were flipped, differ and are not joined yet."""
     t = mesh.twin[h]
     return apex(mesh, h) != apex(mesh, t) and not are_joined(mesh, previous(h), previous(t))
 
 
-@jit
+@inner
 def can_flip(mesh, h):
     """Tell whether the connectivity and the locks allow to flip `h`.
 
@@ -194,7 +194,7 @@ def can_flip(mesh, h):
     return is_free(mesh, h) and makes_new_edge(mesh, h)
 
 
-@jit
+@inner
 def _glue(mesh, h, outer, is_locked):
     """Make `h` and `outer` (or `NONE`) twins; `outer` knows already whether it is locked."""
     mesh.twin[at(h)] = outer
@@ -203,7 +203,7 @@ def _glue(mesh, h, outer, is_locked):
         mesh.twin[at(outer)] = h
 
 
-@jit
+@inner
 def flip(mesh, h):
     """Flip the edge of `h` in place; `can_flip` must have said yes.
 

@@ -1,13 +1,18 @@
 """The spellings of Numba's decorator that this package uses.
 
-``jit`` is for kernels that take arrays and numbers: compiled once, kept on disk. ``generic`` is
-for kernels that take another kernel as a parameter. Numba can never find these in its disk cache
-and would write a new file in every process, so they are not cached; a thin ``jit`` entry that
-fixes the parameter is (see `meshlab_willmore.search.entries`). ``inlined`` is for the arithmetic
-in loops that the compiler should turn into vector instructions, which a call in the loop prevents.
+``jit`` is for kernels that take arrays and numbers, and that Python code calls: compiled once, kept
+on disk. ``inner`` is for those that only other kernels call. ``generic`` is for kernels that take
+another kernel as a parameter. Numba can never find these in its disk cache and would write a new
+file in every process, so they are not cached; a thin ``jit`` entry that fixes the parameter is (see
+`meshlab_willmore.search.entries`). ``inlined`` is for the arithmetic in loops that the compiler
+should turn into vector instructions, which a call in the loop prevents.
+
+All but the first are compiled without what unpacks the arguments of a call from Python. That would
+take longer than most kernels: it is done for each array of all the tuples that they take.
 """
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -15,19 +20,58 @@ from .. import quick_start
 
 quick_start.import_numba()
 from numba import njit  # noqa: E402
+from numba.core.registry import CPUDispatcher  # noqa: E402
 
 from . import compiling  # noqa: E402, F401 (it tells of what is compiled)
 
 quick_start.load_numba()
 
 # Division by zero gives inf or nan, as in NumPy: kernels test for finite results where it matters.
-# Kernels touch no Python object, so other threads may run meanwhile.
-generic = njit(error_model="numpy", nogil=True)
-inlined = njit(error_model="numpy", forceinline=True)
-_cached = njit(cache=True, error_model="numpy", nogil=True)
+# Kernels touch no Python object, so other threads may run meanwhile. No C code calls them.
+_OUTER: dict[str, Any] = {"error_model": "numpy", "no_cfunc_wrapper": True, "nogil": True}
+_INNER: dict[str, Any] = {
+    "error_model": "numpy",
+    "no_cfunc_wrapper": True,
+    "no_cpython_wrapper": True,
+}
 
-# All that `jit` has returned in this process.
+# All kernels of this process that are kept on disk.
 KERNELS: list[Callable] = []
+
+
+class _Inner(CPUDispatcher):
+    """A kernel for other kernels; a call from Python compiles it once more, for this process.
+
+    Without that, Numba would call a function that is not there.
+    """
+
+    _outer = None
+
+    def __call__(self, *args):
+        if self._outer is None:
+            self._outer = _compiled(self.py_func)
+        return self._outer(*args)
+
+
+def _compiled(function, **options):
+    return njit(**_OUTER, **options)(function)
+
+
+def _compiled_inside(function, **options):
+    kernel = njit(**_INNER, **options)(function)
+    # With the JIT off it is the function.
+    if isinstance(kernel, CPUDispatcher):
+        kernel.__class__ = _Inner
+    return kernel
+
+
+def _kept(compiled, function):
+    try:
+        kernel = compiled(function, cache=True)
+    except RuntimeError:
+        kernel = compiled(function)
+    KERNELS.append(kernel)
+    return kernel
 
 
 def jit(function):
@@ -38,12 +82,25 @@ def jit(function):
     home) each process compiles for itself. A shared temporary folder would be no way out: a cache
     is code, and others could put theirs there.
     """
-    try:
-        kernel = _cached(function)
-    except RuntimeError:
-        kernel = generic(function)
-    KERNELS.append(kernel)
-    return kernel
+    return _kept(_compiled, function)
+
+
+def inner(function):
+    """Return `function` compiled for other kernels, with a cache on disk as `jit` has one.
+
+    In the cache they are not told apart, so no function can be compiled in both ways.
+    """
+    return _kept(_compiled_inside, function)
+
+
+def generic(function):
+    """Return `function`, which takes kernels, compiled for other kernels, without a cache."""
+    return _compiled_inside(function)
+
+
+def inlined(function):
+    """Return `function` compiled for other kernels, without a cache, and always inlined."""
+    return _compiled_inside(function, forceinline=True)
 
 
 @inlined

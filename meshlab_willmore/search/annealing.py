@@ -35,7 +35,7 @@ from ..guards import cuts
 from ..guards import space as spaces
 from ..guards.space import Space
 from ..mesh.halfedge import NONE, Mesh, flip, is_free, makes_new_edge
-from ..mesh.jit import generic, jit
+from ..mesh.jit import generic, inner
 from .rules import CONVERGED, STOPPED, WORKING, Rules
 from .states import State, assign, better, copy_of, descend, finish, start_from
 
@@ -95,13 +95,13 @@ class Walk(NamedTuple):
     state: int
 
 
-@jit
+@inner
 def may_flip(mesh, h, rules):
     """Tell whether connectivity, locks and guards allow to flip `h`, energies aside."""
     return is_free(mesh, h) and not guards.folds(mesh, h, rules.fold) and makes_new_edge(mesh, h)
 
 
-@jit
+@inner
 def _keep_best(task, done, best):
     """Make the state after the first `best` of the `done` flips of the journal the best one."""
     assign(task.best, task.mesh)

@@ -7,14 +7,14 @@ import numpy as np
 from ..energy import willmore
 from ..energy.angles import AngleSum, radians, rough
 from ..mesh.halfedge import is_free
-from ..mesh.jit import at, generic, jit
+from ..mesh.jit import at, generic, inner
 from .board import forbid
 from .heap import NEVER
 from .lanes import LANES, copy_lane, drop_at, empty_lanes, fill, find_drops, is_positive
 from .scoring import gain_of
 
 
-@jit
+@inner
 def _note(board, h, gain, change):
     """Write down a cost reduction, and what the flip lowers the Willmore energy by."""
     rules, t = board.rules, board.mesh.twin[at(h)]
@@ -55,7 +55,7 @@ class Batch(NamedTuple):
     gains: np.ndarray
 
 
-@jit
+@inner
 def _empty_batch():
     return Batch(empty_lanes(), np.empty(LANES, np.int32), np.empty((LANES, 3)))
 

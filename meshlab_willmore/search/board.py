@@ -6,7 +6,7 @@ import numpy as np
 
 from ..guards.space import Space
 from ..mesh.halfedge import NONE, Mesh
-from ..mesh.jit import at, jit
+from ..mesh.jit import at, inner
 from .heap import NEVER
 from .pairs import Pairs, no_pairs
 from .rules import Rules
@@ -116,7 +116,7 @@ def board_of(mesh, rules, space):
     )
 
 
-@jit
+@inner
 def forbid(board, h):
     """Take the edge of `h`, if it is one with a twin, out of those that may be flipped."""
     t = board.mesh.twin[at(h)]
@@ -125,7 +125,7 @@ def forbid(board, h):
         board.rank[at(t)] = NEVER
 
 
-@jit
+@inner
 def touch(board, h, _):
     """Mark the edge of `h` as one to be scored; threads may do that side by side."""
     t = board.mesh.twin[at(h)]
@@ -145,7 +145,7 @@ class Pad(NamedTuple):
     size: np.ndarray
 
 
-@jit
+@inner
 def watch(pad, h, _):
     """Put the edge of `h`, if it has a rank, among those that may be peaks."""
     board = pad.board

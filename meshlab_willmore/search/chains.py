@@ -22,7 +22,7 @@ from ..mesh.halfedge import (
     makes_new_edge,
     previous,
 )
-from ..mesh.jit import generic, jit
+from ..mesh.jit import generic, inner
 from .pending import Pending
 from .rules import Rules
 from .scoring import gain_of
@@ -155,7 +155,7 @@ def no_chain(reach):
     )
 
 
-@jit
+@inner
 def ring_around(mesh, h, ring):
     """Write the sides of the diamond of `h`, and the other sides of the faces outside, to `ring`.
 
@@ -176,7 +176,7 @@ def ring_around(mesh, h, ring):
     return count
 
 
-@jit
+@inner
 def _may_flip(task, h):
     """Tell whether connectivity, locks and guards allow to flip `h`, energies aside."""
     mesh = task.mesh
@@ -190,7 +190,7 @@ def _may_flip(task, h):
     return True
 
 
-@jit
+@inner
 def _is_joined(task, h, length):
     """Tell whether the chain has made the edge of `h` itself."""
     a, b = task.mesh.origin[h], task.mesh.origin[following(h)]
@@ -201,7 +201,7 @@ def _is_joined(task, h, length):
     return False
 
 
-@jit
+@inner
 def _offer(task, s, h, score):
     """Sort `h` into the candidates of step `s`, after those of the same rank."""
     chain, step = task.chain, task.rules.rank_step
@@ -230,7 +230,7 @@ def _find_candidates(task, count, s, ranking):
                 _offer(task, s, h, score)
 
 
-@jit
+@inner
 def _next_candidate(task, s):
     """Return the place of the best candidate of step `s` not tried yet that is allowed, or NONE."""
     chain = task.chain
@@ -244,7 +244,7 @@ def _next_candidate(task, s):
     return NONE
 
 
-@jit
+@inner
 def _add(task, h, s, score, drop):
     """Write down what `h`, as the flip after `s` others, gains as ranked and as judged."""
     chain = task.chain
@@ -255,7 +255,7 @@ def _add(task, h, s, score, drop):
         chain.willmore[s + 1] = chain.willmore[s] + willmore.cost_reduction(task.mesh, h)
 
 
-@jit
+@inner
 def _better(task, length, best):
     """Return the better one of the prefix `best` and the whole chain of `length` flips."""
     chain, rules = task.chain, task.rules
@@ -270,7 +270,7 @@ def _better(task, length, best):
     return Prefix(length, chain.gain[length], chain.drop[length])
 
 
-@jit
+@inner
 def _do(task, s):
     """Make the flip of step `s`."""
     mesh, chain = task.mesh, task.chain
@@ -285,7 +285,7 @@ def _do(task, s):
     spaces.follow(mesh, task.space, h)
 
 
-@jit
+@inner
 def _undo(task, s):
     """Take the flip of step `s` back: the mesh is the same as before it, bit for bit."""
     mesh, chain = task.mesh, task.chain

@@ -37,7 +37,7 @@ from ..energy import willmore
 from ..guards import space as spaces
 from ..guards.space import Space
 from ..mesh.halfedge import NONE, Mesh, flip, makes_new_edge
-from ..mesh.jit import generic, jit
+from ..mesh.jit import generic, inner
 from . import rescoring
 from .heap import NEVER, Queue, empty_queue, first, update
 from .pairs import Pairs, insert, no_pairs, reserve
@@ -62,7 +62,7 @@ class Task(NamedTuple):
     waiting: Waiting
 
 
-@jit
+@inner
 def _must_stay_away(task, h):
     """Tell whether the edge of `h` must not come back once flipped: the flip lowers no energy."""
     rules = task.rules

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..mesh.jit import jit
+from ..mesh.jit import inner
 
 ABSENT = -1
 NEVER = -math.inf
@@ -47,13 +47,13 @@ def empty_queue(items):
     )
 
 
-@jit
+@inner
 def first(queue):
     """Return the half-edge of the largest priority; the queue must not be empty."""
     return np.int64(queue.item[0])
 
 
-@jit
+@inner
 def update(queue, item, priority):
     """Set the priority of `item` in place: insert it, move it, or, with `NEVER`, take it out."""
     p = np.int64(queue.place[item])
@@ -67,7 +67,7 @@ def update(queue, item, priority):
     _settle(queue, p, priority, item)
 
 
-@jit
+@inner
 def _remove(queue, p):
     queue.place[queue.item[p]] = ABSENT
     queue.size[0] -= 1
@@ -76,20 +76,20 @@ def _remove(queue, p):
         _settle(queue, p, queue.priority[last], queue.item[last])
 
 
-@jit
+@inner
 def _goes_before(priority, item, other_priority, other_item):
     """Order of the queue; equal priorities go by number, so that runs can be repeated."""
     return priority > other_priority or (priority == other_priority and item < other_item)
 
 
-@jit
+@inner
 def _put(queue, p, priority, item):
     queue.priority[p] = priority
     queue.item[p] = item
     queue.place[item] = p
 
 
-@jit
+@inner
 def _settle(queue, p, priority, item):
     """Write an entry into the free place `p`, then let it rise or sink to where it belongs."""
     while p > 0:
@@ -108,7 +108,7 @@ def _settle(queue, p, priority, item):
     _put(queue, p, priority, item)
 
 
-@jit
+@inner
 def _leading_child(queue, p):
     """Return the child of `p` that goes before the other, or `ABSENT`."""
     left, right = 2 * p + 1, 2 * p + 2

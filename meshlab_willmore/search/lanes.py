@@ -11,7 +11,7 @@ import numpy as np
 from ..energy.angles import AngleSum
 from ..energy.sides import Outside, Sides
 from ..mesh.halfedge import NONE, Diamond
-from ..mesh.jit import generic, inlined, jit
+from ..mesh.jit import generic, inlined, inner
 from ..mesh.points import Point
 
 LANES = 64
@@ -53,7 +53,7 @@ def _write_outside(rows, place, lane, mesh, side):
     _write(rows, _OUTSIDE + 3 * place, lane, mesh.vertices, mesh.origin[corner])
 
 
-@jit
+@inner
 def empty_lanes():
     """Return rows for `LANES` edges."""
     return np.zeros(_ROWS * LANES)

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..mesh.jit import jit
+from ..mesh.jit import inner, jit
 
 FREE = -1
 FIRST_CAPACITY = 1024
@@ -33,7 +33,7 @@ def no_pairs(capacity=FIRST_CAPACITY):
     return Pairs(np.full((capacity, 2), FREE, np.int32), np.zeros(1, np.int64))
 
 
-@jit
+@inner
 def _slot(pairs, a, b):
     """Return the slot that holds the pair, or the free one where it belongs."""
     low, high = np.int64(min(a, b)), np.int64(max(a, b))
@@ -47,13 +47,13 @@ def _slot(pairs, a, b):
     return slot
 
 
-@jit
+@inner
 def contains(pairs, a, b):
     """Tell whether the unordered pair is in the set."""
     return pairs.slots[_slot(pairs, a, b), 0] != FREE
 
 
-@jit
+@inner
 def insert(pairs, a, b):
     """Add the unordered pair in place; `reserve` must have made room for it."""
     slot = _slot(pairs, a, b)

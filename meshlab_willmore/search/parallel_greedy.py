@@ -27,7 +27,7 @@ import numpy as np
 from ..guards import space as spaces
 from ..guards.cuts import blocker
 from ..mesh.halfedge import NONE, apex, flip, makes_new_edge
-from ..mesh.jit import at, jit
+from ..mesh.jit import at, inner, jit
 from ..mesh.workers import crew
 from . import lists, peaks
 from .board import board_of, forbid
@@ -40,7 +40,7 @@ NO_VERDICT = np.empty(0, np.int8)
 WATCHED_PER_CHANGE = 13
 
 
-@jit
+@inner
 def _take_corners(board, h):
     """Take the corners of the diamond of `h`, unless one of them is taken; tell whether."""
     mesh, t = board.mesh, board.mesh.twin[h]
@@ -53,7 +53,7 @@ def _take_corners(board, h):
     return True
 
 
-@jit
+@inner
 def _is_blocked_by_now(board, h, verdict, is_contested, number):
     """Tell whether a new face would cut another one; the verdict tells how it was before."""
     if verdict == IS_BLOCKED:

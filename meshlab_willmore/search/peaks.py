@@ -11,7 +11,7 @@ from .. import guards
 from ..guards import space as spaces
 from ..guards.cuts import has_rival, would_cut
 from ..mesh.halfedge import NONE, apex, following, makes_new_edge, previous
-from ..mesh.jit import at, inlined, jit
+from ..mesh.jit import at, inlined, inner, jit
 from .board import Board
 
 # What becomes of a candidate in a round.
@@ -38,7 +38,7 @@ def scrambled(h):
     return (at(h) * SCRAMBLER) & LOW_BITS
 
 
-@jit
+@inner
 def _goes_first(board, h, rank, side):
     """Tell whether the edge of the half-edge `side` goes before `h`, the lower of its twins."""
     other = board.rank[at(side)]
@@ -48,7 +48,7 @@ def _goes_first(board, h, rank, side):
     return scrambled(min(side, board.mesh.twin[at(side)])) < scrambled(h)
 
 
-@jit
+@inner
 def _is_peak(board, h):
     mesh = board.mesh
     t, rank = mesh.twin[at(h)], board.rank[at(h)]

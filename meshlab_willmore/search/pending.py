@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..mesh.halfedge import NONE, following
-from ..mesh.jit import jit
+from ..mesh.jit import inner, jit
 
 
 class Pending(NamedTuple):
@@ -31,7 +31,7 @@ def nothing_pending(mesh):
     return Pending(np.empty(count, np.int32), np.zeros(count, np.bool_), np.zeros(2, np.int64))
 
 
-@jit
+@inner
 def append(mesh, pending, h):
     """Put the edge of `h` last into the queue, unless it waits already or has one face only."""
     t = mesh.twin[h]
@@ -44,7 +44,7 @@ def append(mesh, pending, h):
         pending.ends[1] += 1
 
 
-@jit
+@inner
 def take_first(pending):
     """Take the first half-edge out of the queue, which must not be empty."""
     h = np.int64(pending.item[pending.ends[0]])

@@ -5,7 +5,7 @@ from typing import NamedTuple
 from .. import guards
 from ..guards import cuts
 from ..mesh.halfedge import NONE, apex
-from ..mesh.jit import jit
+from ..mesh.jit import inner
 from .pairs import contains
 from .waiting import wait
 
@@ -57,13 +57,13 @@ class Progress(NamedTuple):
     state: int
 
 
-@jit
+@inner
 def brings_back(mesh, gone, h):
     """Tell whether the flip of `h` makes an edge of `gone`, which has to stay away."""
     return contains(gone, apex(mesh, h), apex(mesh, mesh.twin[h]))
 
 
-@jit
+@inner
 def is_blocked(task, h):
     """Tell whether a new face would cut another one, and if so, wait until that changes.
 
@@ -77,7 +77,7 @@ def is_blocked(task, h):
     return must_wait(task, h, cuts.blocker(task.mesh, task.space, h, cuts.EVER))
 
 
-@jit
+@inner
 def must_wait(task, h, face):
     """Let `h` wait until the face that blocks it changes, if there is one; tell whether."""
     if not task.space.active or face == NONE:

@@ -43,7 +43,7 @@ from .. import guards
 from ..energy import delaunay
 from ..guards import space as spaces
 from ..mesh.halfedge import apex, flip, is_free, makes_new_edge
-from ..mesh.jit import generic, jit
+from ..mesh.jit import generic, inner, jit
 from . import greedy, regions
 from .chains import Task, find_chain, no_chain, ring_around
 from .greedy import SLICE
@@ -54,7 +54,7 @@ from .rules import CONVERGED, NO_LIMIT, STOPPED, WORKING, Progress
 DOUBT = 1e-7
 
 
-@jit
+@inner
 def _keep(task, length):
     """Flip the edges of the best prefix for good, and queue all edges around."""
     mesh, chain = task.mesh, task.chain

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..mesh.jit import jit
+from ..mesh.jit import inner
 
 NONE = -1
 
@@ -42,7 +42,7 @@ def nothing_waits(faces):
     )
 
 
-@jit
+@inner
 def wait(waiting, h, face):
     """Let `h` wait for `face` instead of what it waited for, in place."""
     leave(waiting, h)
@@ -53,7 +53,7 @@ def wait(waiting, h, face):
         waiting.behind[following] = h
 
 
-@jit
+@inner
 def leave(waiting, h):
     """Let `h` wait for nothing any more, in place."""
     face = waiting.face[h]

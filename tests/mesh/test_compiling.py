@@ -8,9 +8,9 @@ import sys
 import types
 
 import pytest
+from numba import njit
 
 from meshlab_willmore.mesh import compiling
-from meshlab_willmore.mesh.jit import generic
 
 pytestmark = pytest.mark.heavy
 LINE = "Compiling it once; this takes some seconds ...\n"
@@ -26,8 +26,8 @@ def kernels(module="meshlab_willmore.of_a_test"):
         return inner(inner(x))
 
     half.__module__ = quarter.__module__ = module
-    inner = generic(half)
-    return inner, generic(quarter)
+    inner = njit(half)
+    return inner, njit(quarter)
 
 
 class Terminal(io.StringIO):
@@ -134,7 +134,7 @@ def test_after_an_error_the_next_one_is_told_of():
 
     def run():
         with pytest.raises(Exception, match="no_such_thing"):
-            generic(wrong)(1.0)
+            njit(wrong)(1.0)
 
     assert said(run) == LINE
     assert said(lambda: kernels()[0](1.0)) == LINE

@@ -1,4 +1,4 @@
-"""Kernels where no cache can be written."""
+"""Kernels for kernels, and kernels where no cache can be written."""
 
 import os
 import pathlib
@@ -6,9 +6,11 @@ import shutil
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 import meshlab_willmore
+from meshlab_willmore.mesh.jit import generic, inlined, inner, jit
 
 SCRIPT = """
 import pathlib, meshlab_willmore.optimize
@@ -16,6 +18,38 @@ from meshlab_willmore.mesh import points
 assert pathlib.Path(points.__file__).is_relative_to(pathlib.Path.cwd())
 print(points.norm(points.Point(2.0, 3.0, 6.0)))
 """
+
+
+def first(array):
+    return array[0]
+
+
+def last(array):
+    return array[len(array) - 1]
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("compiled", [inner, generic, inlined])
+def test_kernels_for_kernels_are_compiled_for_them_only_until_python_calls(compiled):
+    kernel = compiled(first)
+
+    def caller(array):
+        return kernel(array) + 1.0
+
+    array = np.array([2.0, 3.0])
+    assert generic(caller)(array) == 3.0
+    assert "cpython" not in "".join(kernel.inspect_llvm().values())
+    assert [kernel(array), kernel(array[1:])] == [2.0, 3.0]
+    assert len(kernel.signatures) == 1
+
+
+@pytest.mark.heavy
+def test_kernels_for_python_have_no_way_in_for_c():
+    kernel = jit(last)
+    assert kernel(np.array([2.0])) == 2.0
+    code = "".join(kernel.inspect_llvm().values())
+    assert "cpython" in code
+    assert "cfunc" not in code
 
 
 @pytest.mark.heavy

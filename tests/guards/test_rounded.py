@@ -6,7 +6,8 @@ import numpy as np
 import pymeshlab
 import pytest
 
-from meshlab_willmore.guards import faces
+from meshlab_willmore.guards import faces, triangles
+from meshlab_willmore.mesh.points import Point
 from meshlab_willmore.mesh.validate import to_unit_scale
 from tests import meshes
 from tests.guards.test_triangles import FAMILIES, PATTERNS
@@ -85,6 +86,30 @@ def test_in_no_family_is_a_cut_seen_apart(family, sharing):
         if faces.are_seen_apart(one, other, common, 4.0**exponent):
             assert not faces.cut_exactly(one, other, common)
             assert not faces.count_as_cut(one, other, common, 4.0**exponent)
+
+
+def mirrored(rng):
+    """Two faces with a common vertex, one on each side of a plane, hardly apart and tilted."""
+    gap, bend, size = 10.0 ** -rng.uniform((5, 9, 0), (16, 17, 3))
+    turns = np.array([-1.0, 0.0, 0.0, 1.0]) * rng.uniform(0.1, 1.5) + gap * np.repeat([-1, 1], 2)
+    lengths = np.array([1.0, *rng.uniform(0.1, 1.0, 1).repeat(2), 1.0])
+    flat = np.column_stack([lengths * np.cos(turns), lengths * np.sin(turns), np.zeros(4)])
+    flat[:, 2] = bend * rng.uniform(-1.0, 1.0, 4)
+    turned = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    return np.vstack([np.zeros(3), size * flat]) @ turned + rng.uniform(-1.0, 1.0, 3)
+
+
+def test_what_only_rounding_brings_together_is_not_seen_apart():
+    rng = np.random.default_rng(4)
+    area_scale, by_rounding = 4.0**25, 0
+    for _ in range(4000):
+        s, a, b, c, d = (Point(*row) for row in mirrored(rng).tolist())
+        one, other = faces.Face(0, 1, 2, s, a, b), faces.Face(0, 3, 4, s, c, d)
+        common = faces.match(one, other)
+        if faces.count_as_cut(one, other, common, area_scale):
+            assert not faces.are_seen_apart(one, other, common, area_scale)
+            by_rounding += triangles.are_apart(s, a, b, c, d, 0.0, 0.0)
+    assert by_rounding > 0
 
 
 def test_nearly_all_neighbours_round_a_vertex_are_seen_apart():

@@ -28,6 +28,8 @@ from .points import Point, norm, point, subtract
 NONE = -1
 # To walk round a vertex with so many edges costs next to nothing.
 FEW_EDGES = 16
+# Whether a vertex is in a fan.
+IS_NOT_THERE, IS_THERE, IN_DOUBT = range(3)
 
 
 class Mesh(NamedTuple):
@@ -131,6 +133,39 @@ def _has_corner(mesh, h, v):
 
 
 @inner
+def _look_round(twin, origin, a, v):
+    """Tell whether `v` is in the closed fan around the origin of `a`, `IN_DOUBT` of other fans.
+
+    It takes arrays, not the mesh: the tuple would take longer to hand over than the walk.
+    """
+    x = a
+    for _ in range(FEW_EDGES):
+        if origin[at(following(x))] == v:
+            return IS_THERE
+        before = twin[at(previous(x))]
+        if before == NONE:
+            break
+        x = np.int64(before)
+        if x == a:
+            return IS_NOT_THERE
+    return IN_DOUBT
+
+
+@inner
+def _look_round_both(mesh, a, b):
+    u, v = mesh.origin[at(a)], mesh.origin[at(b)]
+    if mesh.several_fans[at(u)] and mesh.several_fans[at(v)]:
+        return True
+    x, y = a, b
+    while True:
+        if _has_corner(mesh, x, v) or _has_corner(mesh, y, u):
+            return True
+        x, y = next_in_fan(mesh, x), next_in_fan(mesh, y)
+        if (x == a and not mesh.several_fans[u]) or (y == b and not mesh.several_fans[v]):
+            return False
+
+
+@inlined
 def are_joined(mesh, a, b):
     """Tell whether an edge joins the origins of the half-edges `a` and `b`; also if in doubt.
 
@@ -139,27 +174,12 @@ def are_joined(mesh, a, b):
     steps round the first vertex tell. Otherwise the fans of both are walked in step until one is
     through, so that a vertex with a great many edges does no harm.
     """
-    u, v = mesh.origin[at(a)], mesh.origin[at(b)]
-    if mesh.several_fans[at(u)] and mesh.several_fans[at(v)]:
-        return True
-    if not mesh.several_fans[at(u)]:
-        x = a
-        for _ in range(FEW_EDGES):
-            if _has_corner(mesh, x, v):
-                return True
-            t = mesh.twin[at(x)]
-            if t == NONE:
-                break
-            x = following(t)
-            if x == a:
-                return False
-    x, y = a, b
-    while True:
-        if _has_corner(mesh, x, v) or _has_corner(mesh, y, u):
-            return True
-        x, y = next_in_fan(mesh, x), next_in_fan(mesh, y)
-        if (x == a and not mesh.several_fans[u]) or (y == b and not mesh.several_fans[v]):
-            return False
+    found = IN_DOUBT
+    if not mesh.several_fans[at(mesh.origin[at(a)])]:
+        found = _look_round(mesh.twin, mesh.origin, np.int64(a), mesh.origin[at(b)])
+    if found == IN_DOUBT:
+        return _look_round_both(mesh, a, b)
+    return found == IS_THERE
 
 
 @inner
@@ -177,10 +197,10 @@ def is_free(mesh, h):
     return ((k_i != NONE) | (i_l != NONE)) & ((j_k != NONE) | (l_j != NONE))
 
 
-@inner
+@inlined
 def makes_new_edge(mesh, h):
     """Tell whether k and l, the ends of `h` if it were flipped, differ and are not joined yet."""
-    t = mesh.twin[h]
+    t = mesh.twin[at(h)]
     return apex(mesh, h) != apex(mesh, t) and not are_joined(mesh, previous(h), previous(t))
 
 

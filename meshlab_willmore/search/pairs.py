@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..mesh.jit import inner, jit
+from ..mesh.jit import at, inlined, inner, jit
 
 FREE = -1
 FIRST_CAPACITY = 1024
@@ -34,29 +34,29 @@ def no_pairs(capacity=FIRST_CAPACITY):
 
 
 @inner
-def _slot(pairs, a, b):
+def _slot(slots, a, b):
     """Return the slot that holds the pair, or the free one where it belongs."""
     low, high = np.int64(min(a, b)), np.int64(max(a, b))
-    mask = len(pairs.slots) - 1
+    mask = len(slots) - 1
     key = low * MULTIPLIER + high
     slot = (key ^ (key >> FOLD_BITS)) & mask
-    while pairs.slots[slot, 0] != FREE:
-        if pairs.slots[slot, 0] == low and pairs.slots[slot, 1] == high:
+    while slots[at(slot), 0] != FREE:
+        if slots[at(slot), 0] == low and slots[at(slot), 1] == high:
             break
         slot = (slot + 1) & mask
     return slot
 
 
-@inner
+@inlined
 def contains(pairs, a, b):
     """Tell whether the unordered pair is in the set."""
-    return pairs.slots[_slot(pairs, a, b), 0] != FREE
+    return pairs.slots[at(_slot(pairs.slots, a, b)), 0] != FREE
 
 
 @inner
 def insert(pairs, a, b):
     """Add the unordered pair in place; `reserve` must have made room for it."""
-    slot = _slot(pairs, a, b)
+    slot = at(_slot(pairs.slots, a, b))
     if pairs.slots[slot, 0] == FREE:
         pairs.slots[slot, 0] = min(a, b)
         pairs.slots[slot, 1] = max(a, b)

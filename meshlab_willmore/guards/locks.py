@@ -64,6 +64,8 @@ def lock_edges(mesh, edges):
     ValueError
         Names the first pair that is no edge of the mesh.
     """
+    if len(edges) == 0:
+        return
     vertex_count = len(mesh.vertices)
     outside = ((edges < 0) | (edges >= vertex_count)).any(axis=1)
     inside = edges[: np.argmax(outside)] if outside.any() else edges

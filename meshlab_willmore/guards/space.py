@@ -282,7 +282,7 @@ def next_leaf(space, node, box, since):
         A leaf whose box meets `box`, with a face that changed in the round `since` or later, or
         `NONE` if there is none. Go on with `after`.
     """
-    inner = len(space.box) // 2
+    first_leaf = len(space.box) // 2
     while node != NONE:
         row = at(node)
         meets = (
@@ -296,7 +296,7 @@ def next_leaf(space, node, box, since):
         )
         if not meets:
             node = after(node)
-        elif node < inner:
+        elif node < first_leaf:
             node = 2 * node + 1
         else:
             return node
@@ -315,6 +315,7 @@ def after(node):
 @inner
 def faces_at(space, node):
     """Return where the faces of a leaf start and stop in ``space.order``."""
-    inner = len(space.box) // 2
-    faces, leaf = len(space.order), node - inner
-    return first_place(leaf, faces, inner + 1), first_place(leaf + 1, faces, inner + 1)
+    first_leaf = len(space.box) // 2
+    faces, leaf = len(space.order), node - first_leaf
+    leaves = first_leaf + 1
+    return first_place(leaf, faces, leaves), first_place(leaf + 1, faces, leaves)

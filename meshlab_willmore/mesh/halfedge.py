@@ -28,7 +28,7 @@ from .points import Point, norm, point, subtract
 NONE = -1
 # To walk round a vertex with so many edges costs next to nothing.
 FEW_EDGES = 16
-# Whether a vertex is in a fan.
+# Whether a vertex is next to another one.
 IS_NOT_THERE, IS_THERE, IN_DOUBT = range(3)
 
 
@@ -134,9 +134,10 @@ def _has_corner(mesh, h, v):
 
 @inner
 def _look_round(twin, origin, a, v):
-    """Tell whether `v` is in the closed fan around the origin of `a`, `IN_DOUBT` of other fans.
+    """Tell whether an edge joins `v` and the origin of `a`, which must have a single fan.
 
-    It takes arrays, not the mesh: the tuple would take longer to hand over than the walk.
+    `IN_DOUBT` if the fan is open or has more than `FEW_EDGES` edges. It takes arrays, not the mesh:
+    the tuple would take longer to hand over than the walk.
     """
     x = a
     for _ in range(FEW_EDGES):
@@ -171,8 +172,8 @@ def are_joined(mesh, a, b):
 
     That is exact: where the faces at a vertex form a single fan, each edge of the vertex belongs to
     a face of that fan. If both vertices have several fans, the answer is yes. Nearly always a few
-    steps round the first vertex tell. Otherwise the fans of both are walked in step until one is
-    through, so that a vertex with a great many edges does no harm.
+    steps round the first vertex tell, if it is inside the surface. Otherwise the fans of both are
+    walked in step until one is through, so that a vertex with a great many edges does no harm.
     """
     found = IN_DOUBT
     if not mesh.several_fans[at(mesh.origin[at(a)])]:

@@ -5,7 +5,8 @@ on disk. ``inner`` is for those that only other kernels call. ``generic`` is for
 another kernel as a parameter. Numba can never find these in its disk cache and would write a new
 file in every process, so they are not cached; a thin ``jit`` entry that fixes the parameter is (see
 `meshlab_willmore.search.entries`). ``inlined`` is for the arithmetic in loops that the compiler
-should turn into vector instructions, which a call in the loop prevents.
+should turn into vector instructions, which a call in the loop prevents, and for what takes a mesh
+or another tuple of many arrays and is asked for each edge: a call hands over array by array.
 
 All but the first are compiled without what unpacks the arguments of a call from Python. That would
 take longer than most kernels: it is done for each array of all the tuples that they take.
@@ -35,7 +36,7 @@ _INNER: dict[str, Any] = {
     "no_cpython_wrapper": True,
 }
 
-# All kernels of this process that are kept on disk.
+# All that `jit` and `inner` have returned in this process.
 KERNELS: list[Callable] = []
 
 
@@ -47,10 +48,10 @@ class _Inner(CPUDispatcher):
 
     _outer = None
 
-    def __call__(self, *args):
+    def __call__(self, *args, **given):
         if self._outer is None:
             self._outer = _compiled(self.py_func)
-        return self._outer(*args)
+        return self._outer(*args, **given)
 
 
 def _compiled(function, **options):
@@ -88,7 +89,9 @@ def jit(function):
 def inner(function):
     """Return `function` compiled for other kernels, with a cache on disk as `jit` has one.
 
-    In the cache they are not told apart, so no function can be compiled in both ways.
+    In the cache they are not told apart: what `jit` finds as `inner` left it crashes when Python
+    calls it. So no function can be compiled in both ways, and who changes the options here must
+    empty the cache.
     """
     return _kept(_compiled_inside, function)
 

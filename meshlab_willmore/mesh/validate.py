@@ -100,7 +100,7 @@ def _check_faces(faces, vertex_count):
 
 def check_edges(edges):
     """Return vertex pairs (e, 2) as int64, or raise as `check_mesh` does."""
-    return _check_indices(np.asarray(edges), "locked_edges", 2).astype(np.int64)
+    return _check_indices(np.asarray(edges), "locked_edges", 2).astype(np.int64, order="C")
 
 
 def check_mask(mask, count):

@@ -5,10 +5,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from meshlab_willmore.mesh import halfedge
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import (
     NONE,
     apex,
+    are_joined,
     can_flip,
     diamond,
     flip,
@@ -144,6 +146,21 @@ def test_can_flip_agrees_with_a_search_of_all_edges(mesh_index):
             assert allowed
         elif not mesh.several_fans[[i, j, k, l]].any():
             assert not allowed
+
+
+@pytest.mark.parametrize("few", [halfedge.FEW_EDGES, 2])
+@pytest.mark.parametrize("mesh_index", range(len(MIXED)))
+def test_joined_is_what_an_edge_joins_or_nobody_can_tell(mesh_index, few, monkeypatch):
+    # Compiled kernels keep the number that they were compiled with.
+    monkeypatch.setattr(halfedge, "FEW_EDGES", few)
+    mesh = build(*MIXED[mesh_index])
+    edges = reference.edge_set(faces_of(mesh))
+    for a in range(len(mesh.origin)):
+        for b in range(a % 7, len(mesh.origin), 7):
+            u, v = sorted((int(mesh.origin[a]), int(mesh.origin[b])))
+            if u != v:
+                in_doubt = mesh.several_fans[u] and mesh.several_fans[v]
+                assert are_joined(mesh, a, b) == ((u, v) in edges or in_doubt)
 
 
 def test_nothing_flips_in_small_meshes():

@@ -89,6 +89,7 @@ INTERRUPTED = """
 import os, signal, sys, threading, time
 import numpy as np, pymeshlab, meshlab_willmore
 sys.path.insert(0, sys.argv[1])
+from meshlab_willmore.mesh.workers import PIECE
 from meshlab_willmore.search import peaks
 from tests import meshes
 # Of the annealing, far more than anyone would wait for.
@@ -106,10 +107,10 @@ def interrupt():
 if sys.argv[2] == "annealing":
     threading.Timer(2.0, interrupt).start()
 else:
-    # In the middle of the first round, on either thread.
+    # In the middle of the first round, on one thread or another.
     find_peaks = peaks.find_peaks
     def interrupted(look, start, stop):
-        if start > 5000 and not sent:
+        if start == 3 * PIECE and not sent:
             interrupt()
         find_peaks(look, start, stop)
     peaks.find_peaks = interrupted

@@ -7,8 +7,10 @@ choose from, and it is compiled by calling these functions. So a new energy or s
 from __future__ import annotations
 
 import itertools
+import multiprocessing
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -19,11 +21,13 @@ from numpy.typing import NDArray
 from . import measure
 from .mesh import compiling
 from .mesh.jit import cache_folder
+from .mesh.kernel_cache import write_errors
 from .mesh.normals import vertex_normals
 from .optimize import PLACES, SEARCHES, optimize_flips
 from .search.kernels import KERNELS
 
 VIRTUAL = "virtual willmore"
+_GUARDED = ", self-intersections"
 _PLACE = 0.3
 _ROWS, _SLOPE_ROWS = 7, 30
 _HEIGHT = 0.4
@@ -81,12 +85,12 @@ def _flips() -> Iterator[tuple[str, dict[str, Any]]]:
     for search, energy in itertools.product(SEARCHES, KERNELS):
         given = {**few, "search": search, "energy": energy}
         yield f"{search}, {energy}", given
-        yield f"{search}, {energy}, self-intersections", {**given, "checkintersections": True}
+        yield f"{search}, {energy}{_GUARDED}", {**given, "checkintersections": True}
     for search, place in itertools.product(SEARCHES, places):
         given = {**few, "search": search, "energy": VIRTUAL, "virtualpoint": place}
         yield f"{search}, virtual points {place}", given
         yield (
-            f"{search}, virtual points {place}, self-intersections",
+            f"{search}, virtual points {place}{_GUARDED}",
             {**given, "checkintersections": True},
         )
     _, faces = _patch()
@@ -125,8 +129,15 @@ def _patch() -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     return np.stack([x, y, height], 1), faces
 
 
-def warm_up(say: Callable[[str], None]) -> Warmed:
-    """Compile what is not in Numba's cache yet; `say` gets a line for what took its time.
+def warm_up(say: Callable[[str], None], processes: int = 1) -> Warmed:
+    """Compile what is not in Numba's cache yet.
+
+    Parameters
+    ----------
+    say : callable
+        Gets a line for each step that took its time.
+    processes : int
+        In how many processes; with 1, in this one.
 
     Raises
     ------
@@ -137,19 +148,53 @@ def warm_up(say: Callable[[str], None]) -> Warmed:
     """
     folder = _folder()
     start = time.perf_counter()
-    found = []
-    with compiling.announced("", silent=True):
-        for step in steps():
-            with compiling.counted() as compiled:
-                try:
-                    step.run()
-                except OSError as error:
-                    raise OSError(f"Numba's cache can't be written in {folder}: {error}") from error
-            if compiled:
-                say(f"{step.name}: compiled in {sum(c.seconds for c in compiled):.1f} s")
-            found += compiled
+    found: list[compiling.Compiled] = []
+    for name, compiled in _in_processes(processes) if processes > 1 else _run(steps()):
+        if compiled:
+            say(f"{name}: compiled in {sum(c.seconds for c in compiled):.1f} s")
+        found += compiled
     seconds = time.perf_counter() - start
     return Warmed(len(found), sum(c.seconds for c in found), seconds, folder)
+
+
+_Outcome = tuple[str, list[compiling.Compiled]]
+
+
+def _run(chosen: Iterable[Step]) -> Iterator[_Outcome]:
+    """Run steps in this process."""
+    with compiling.announced("", silent=True):
+        for step in chosen:
+            with compiling.counted() as compiled:
+                step.run()
+            if write_errors:
+                error = write_errors.pop()
+                raise OSError(f"Numba's cache can't be written in {_folder()}: {error}")
+            yield step.name, compiled
+
+
+def _in_processes(processes: int) -> Iterator[_Outcome]:
+    """Run all steps in processes of their own, as they come."""
+    # Forked, they would inherit threads' locks.
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(processes, context) as pool:
+        jobs = [pool.submit(_run_named, names) for names in _groups()]
+        try:
+            for job in as_completed(jobs):
+                yield from job.result()
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _run_named(names: list[str]) -> list[_Outcome]:
+    return list(_run(step for step in steps() if step.name in names))
+
+
+def _groups() -> list[list[str]]:
+    """Names of the steps, those together that compile the same kernels."""
+    groups: dict[str, list[str]] = {}
+    for step in steps():
+        groups.setdefault(step.name.removesuffix(_GUARDED), []).append(step.name)
+    return list(groups.values())
 
 
 def missing() -> list[str]:

@@ -1,14 +1,15 @@
-"""A Numba cache of the session's own, and the mark of tests that need the compiler.
+"""Kernels compiled once for each state of their sources, and which tests run.
 
-Numba does not notice when a helper in another file has changed, so the tests never use an old
-cache.
+The package keys its cache by the sources of all kernels, so the folder is kept from run to run.
+Before workers of pytest-xdist start, everything is compiled, on all cores.
 """
 
-import atexit
 import os
 import shutil
 import signal
-import tempfile
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 
@@ -19,16 +20,48 @@ if hasattr(signal, "SIGHUP"):
 
 JIT_IS_OFF = os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0")
 IS_WORKER = "PYTEST_XDIST_WORKER" in os.environ
+# States of the sources whose kernels are kept.
+KEPT = 8
+WARM_UP = """
+import pathlib
+from meshlab_willmore.mesh.jit import cache_folder
+from meshlab_willmore.mesh.workers import core_count
+from meshlab_willmore.warmup import warm_up
+mark = pathlib.Path(cache_folder()).parent / "warm"
+if not mark.exists():
+    print("Compiling all kernels, this takes some minutes ...", flush=True)
+    print(f"compiled {warm_up(lambda line: None, core_count()).compiled}")
+    mark.touch()
+mark.parent.touch()
+"""
+
+
+def _cache():
+    home = os.environ.get("XDG_CACHE_HOME") or Path("~/.cache").expanduser()
+    return Path(home, "meshlab_willmore-tests")
+
 
 if not JIT_IS_OFF and not IS_WORKER:
     # Through the environment, so that workers and subprocesses share it; before Numba is imported.
-    own_cache = tempfile.mkdtemp(prefix="willmore-numba-")
-    os.environ["NUMBA_CACHE_DIR"] = own_cache
-    atexit.register(shutil.rmtree, own_cache, ignore_errors=True)
+    os.environ["NUMBA_CACHE_DIR"] = str(_cache())
 
 
-def pytest_collection_modifyitems(items):
+def pytest_sessionstart(session):
+    has_workers = getattr(session.config.option, "numprocesses", None)
+    if JIT_IS_OFF or IS_WORKER or not has_workers or session.config.option.collectonly:
+        return
+    subprocess.run([sys.executable, "-c", WARM_UP], check=True)
+    states = sorted(_cache().iterdir(), key=lambda folder: folder.stat().st_mtime)
+    for old in states[:-KEPT]:
+        shutil.rmtree(old, ignore_errors=True)
+
+
+def pytest_collection_modifyitems(config, items):
     if JIT_IS_OFF:
         for item in items:
             if item.get_closest_marker("heavy"):
                 item.add_marker(pytest.mark.skip(reason="heavy, and the JIT is off"))
+    if "nightly" not in config.option.markexpr:
+        nightly = [item for item in items if item.get_closest_marker("nightly")]
+        config.hook.pytest_deselected(items=nightly)
+        items[:] = [item for item in items if not item.get_closest_marker("nightly")]

@@ -17,8 +17,9 @@ ROOT = Path(__file__).parents[1]
 LONG = 1200
 WARM = """
 from meshlab_willmore import warmup
-done = warmup.warm_up(print)
-print(done.compiled, warmup.warm_up(print).compiled)
+if __name__ == "__main__":
+    done = warmup.warm_up(print, 2)
+    print(done.compiled, warmup.warm_up(print).compiled)
 """
 LOADED = """
 from meshlab_willmore import warmup
@@ -131,7 +132,7 @@ def test_without_a_compiler_or_a_cache_there_is_an_error(monkeypatch):
 
 def test_a_full_disk_is_told_with_the_folder(monkeypatch):
     def fail():
-        raise OSError(28, "No space left on device")
+        warmup.write_errors.append(OSError(28, "No space left on device"))
 
     monkeypatch.setattr(warmup.config, "DISABLE_JIT", 0)
     monkeypatch.setattr(warmup, "cache_folder", lambda: "/the/folder")

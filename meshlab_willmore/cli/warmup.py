@@ -30,6 +30,7 @@ def command() -> None:
     be set for later runs too. It takes some minutes the first time, and seconds when all is there.
     'meshlab-willmore doctor' tells whether it is done.
     """
+    from ..mesh.workers import core_count
     from ..warmup import warm_up
 
     def say(line: str) -> None:
@@ -37,6 +38,6 @@ def command() -> None:
             click.echo(line, err=True)
 
     say("Compiling what is not in the cache yet; this takes some minutes ...")
-    done = warm_up(say)
+    done = warm_up(say, core_count())
     what = f"{counted(done.compiled, 'kernel')} compiled" if done.compiled else "all is there"
     click.echo(f"{what}, in {done.seconds:.1f} s: {done.folder}")

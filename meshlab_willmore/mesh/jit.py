@@ -12,6 +12,7 @@ All but the first are compiled without what unpacks the arguments of a call from
 take longer than most kernels: it is done for each array of all the tuples that they take.
 """
 
+import contextlib
 from collections.abc import Callable
 from typing import Any
 
@@ -24,6 +25,7 @@ from numba import njit  # noqa: E402
 from numba.core.registry import CPUDispatcher  # noqa: E402
 
 from . import compiling  # noqa: E402, F401 (it tells of what is compiled)
+from .kernel_cache import KernelCache, damaged_files  # noqa: E402
 
 quick_start.load_numba()
 
@@ -67,10 +69,11 @@ def _compiled_inside(function, **options):
 
 
 def _kept(compiled, function):
-    try:
-        kernel = compiled(function, cache=True)
-    except RuntimeError:
-        kernel = compiled(function)
+    kernel = compiled(function)
+    if isinstance(kernel, CPUDispatcher):
+        with contextlib.suppress(RuntimeError):
+            # Instead of ``cache=True``, which knows one cache only.
+            kernel._cache = KernelCache(function)
     KERNELS.append(kernel)
     return kernel
 
@@ -78,10 +81,9 @@ def _kept(compiled, function):
 def jit(function):
     """Return `function` compiled, with a cache on disk where one can be written.
 
-    Numba looks for a writable folder when it decorates: ``NUMBA_CACHE_DIR``, ``__pycache__`` next
-    to the source, the user's own cache folder. Without any of them (a read-only installation and no
-    home) each process compiles for itself. A shared temporary folder would be no way out: a cache
-    is code, and others could put theirs there.
+    Where that is, and when it is compiled anew, `meshlab_willmore.mesh.kernel_cache` tells. Without
+    a folder that can be written (a read-only installation and no home) each process compiles for
+    itself.
     """
     return _kept(_compiled, function)
 
@@ -90,8 +92,7 @@ def inner(function):
     """Return `function` compiled for other kernels, with a cache on disk as `jit` has one.
 
     In the cache they are not told apart: what `jit` finds as `inner` left it crashes when Python
-    calls it. So no function can be compiled in both ways, and who changes the options here must
-    empty the cache.
+    calls it. So no function can be compiled in both ways.
     """
     return _kept(_compiled_inside, function)
 
@@ -126,3 +127,15 @@ def cache_folder():
         no cache, or the compiler is switched off.
     """
     return getattr(getattr(KERNELS[0], "stats", None), "cache_path", None)
+
+
+def damaged_entries():
+    """Return the files in the cache of kernels that are not as they were written.
+
+    Returns
+    -------
+    list of str
+        Paths; the next run that needs these kernels compiles them anew and replaces the files.
+    """
+    folders = {getattr(getattr(kernel, "stats", None), "cache_path", None) for kernel in KERNELS}
+    return [path for folder in sorted(folders - {None}) for path in damaged_files(folder)]

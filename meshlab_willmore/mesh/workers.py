@@ -5,6 +5,7 @@ two threads use it at the same time, another one in processes that were forked, 
 not work beside the library that PyMeshLab brings along. Here, threads live as long as a search.
 """
 
+import os
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
@@ -13,6 +14,13 @@ import numba
 
 # Items of one call of a kernel: far more work than the call itself, and far less than a second.
 PIECE = 2048
+
+
+def core_count() -> int:
+    """Return how many cores this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
 def thread_count():

@@ -8,7 +8,8 @@ FOLDER = "/the/folder"
 
 
 def ending(monkeypatch, compiled):
-    def warm_up(say):
+    def warm_up(say, processes):
+        assert processes >= 1
         say("one: compiled in 1.0 s")
         return warmup.Warmed(compiled, 1.0, 2.04, FOLDER)
 

@@ -1,0 +1,122 @@
+"""Kernels on disk: what keys them, and what becomes of damaged files."""
+
+import errno
+import shutil
+from pathlib import Path
+
+import numba
+import pytest
+
+import meshlab_willmore.optimize
+from meshlab_willmore.mesh import kernel_cache
+from meshlab_willmore.mesh.jit import KERNELS, damaged_entries, jit
+
+PACKAGE = Path(kernel_cache.__file__).parents[1]
+
+
+def twice(x):
+    return 2 * x
+
+
+@pytest.fixture
+def folder(monkeypatch, tmp_path):
+    """An empty cache, and no kernel in it but those of the test."""
+    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
+    monkeypatch.setattr("meshlab_willmore.mesh.jit.KERNELS", [])
+    return tmp_path
+
+
+def kernel():
+    """`twice` as a new process would find it: hits and misses in the cache are counted anew."""
+    return jit(twice)
+
+
+def misses(compiled):
+    assert compiled(3) == 6
+    return sum(compiled.stats.cache_misses.values())
+
+
+def cut(path):
+    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
+
+
+def empty(path):
+    path.write_bytes(b"")
+
+
+def alter(path):
+    data = bytearray(path.read_bytes())
+    data[len(data) // 2] ^= 1
+    path.write_bytes(data)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("harm", [cut, empty, alter])
+@pytest.mark.parametrize("suffix", ["nbi", "nbc"])
+def test_a_damaged_file_is_found_compiled_anew_and_replaced(folder, harm, suffix):
+    assert [misses(kernel()), misses(kernel())] == [1, 0]
+    assert damaged_entries() == []
+    (path,) = folder.rglob(f"*.{suffix}")
+    harm(path)
+    damaged = kernel_cache.damaged_files(path.parent)
+    assert damaged == [str(path)]
+    assert [misses(kernel()), misses(kernel())] == [1, 0]
+    assert kernel_cache.damaged_files(path.parent) == []
+
+
+@pytest.mark.heavy
+def test_the_damaged_files_of_kernels_in_use_are_listed(folder):
+    compiled = kernel()
+    misses(compiled)
+    (path,) = folder.rglob("*.nbc")
+    cut(path)
+    meshlab_willmore.mesh.jit.KERNELS.append(compiled)
+    assert damaged_entries() == [str(path)]
+
+
+@pytest.mark.heavy
+def test_a_full_disk_costs_the_time_to_compile_only(folder, monkeypatch):
+    def full(self, path):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(kernel_cache._Files, "_open_for_write", full)
+    monkeypatch.setattr(kernel_cache, "write_errors", [])
+    assert [misses(kernel()), misses(kernel())] == [1, 1]
+    assert [error.errno for error in kernel_cache.write_errors] == [errno.ENOSPC] * 2
+
+
+def key_of(monkeypatch, package):
+    monkeypatch.setattr(kernel_cache, "_PACKAGE", package)
+    kernel_cache.source_key.cache_clear()
+    return kernel_cache.source_key()
+
+
+@pytest.fixture
+def copy(tmp_path):
+    """The package in another folder."""
+    yield Path(shutil.copytree(PACKAGE, tmp_path / "elsewhere"))
+    kernel_cache.source_key.cache_clear()
+
+
+def test_the_key_is_that_of_the_sources_and_flags_not_of_the_folder(monkeypatch, copy):
+    before = key_of(monkeypatch, PACKAGE)
+    assert key_of(monkeypatch, copy) == before
+    (copy / "cli/warmup.py").write_text("")
+    assert key_of(monkeypatch, copy) == before
+    with open(copy / "energy/angles.py", "a") as helper:
+        helper.write("\n")
+    edited = key_of(monkeypatch, copy)
+    assert edited != before
+    monkeypatch.setattr(numba.config, "BOUNDSCHECK", not numba.config.BOUNDSCHECK)
+    assert key_of(monkeypatch, copy) not in (before, edited)
+
+
+def test_all_kernels_are_among_the_sources():
+    sources = {path for pattern in kernel_cache.SOURCES for path in PACKAGE.glob(pattern)}
+    ours = {
+        Path(getattr(kernel, "py_func", kernel).__code__.co_filename)
+        for kernel in KERNELS
+        if getattr(kernel, "py_func", kernel).__module__.startswith("meshlab_willmore")
+    }
+    assert len(ours) > 20
+    assert ours <= sources

@@ -13,10 +13,18 @@ most one is a peak, and there is always a peak. The peaks of a round change noth
 reads: in whatever order they are flipped, each has the cost reduction that it was chosen for. So a
 round is a piece of a run of single flips, ordered by gain only where gains matter to each other,
 and it ends for the reasons that `greedy` gives. (For an energy whose cost reduction looks round
-whole corners, of the peaks with a common corner only the first is flipped.) What connectivity alone
-decides (that k-l is no edge yet) is looked up flip by flip, in the order of the candidates, and so
-are cuts; that order does not depend on how the work was shared. So the result is the same, bit for
-bit, for any number of threads.
+whole corners, of the peaks with a common corner only the first is flipped.) What the whole mesh
+decides, that k-l is no edge yet and that no face is cut, is asked of every peak before the round.
+
+**Why no edge is made twice.** After some flips of a round, the edges of the mesh are among those
+before the round and those that these flips have made. k-l is none of the former, or the peak would
+have been refused. One of the latter it can be only if another peak makes the same edge. Such peaks
+are *contested*: they are flipped after all others, one by one, and each is asked again on the mesh
+as it is then. What was refused before the round is never flipped in it, although a flip may free
+it: it waits for what was in its way, and is scored for the next round. The same holds for cuts: the
+faces are those before the round and those that its flips make, and who would cut one of the latter
+is contested. The order of the peaks does not depend on how the work was shared. So the result is
+the same, bit for bit, for any number of threads.
 """
 
 import itertools
@@ -25,15 +33,15 @@ from typing import NamedTuple
 import numpy as np
 
 from ..guards import space as spaces
-from ..guards.cuts import blocker
+from ..guards.cuts import EVER, blocker
 from ..mesh.halfedge import NONE, apex, flip, makes_new_edge
 from ..mesh.jit import at, inner, jit
 from ..mesh.workers import crew
 from . import lists, peaks
 from .board import board_of, forbid
 from .pairs import insert, reserve
-from .peaks import FOLDS, IS_BLOCKED, IS_JOINED, IS_PEAK, Look
-from .rules import CONVERGED, STOPPED, WORKING, Progress, brings_back, is_blocked, must_wait
+from .peaks import FOLDS, IS_BLOCKED, IS_JOINED, Look
+from .rules import CONVERGED, STOPPED, WORKING, Progress, brings_back, must_wait
 
 NO_VERDICT = np.empty(0, np.int8)
 # Edges around one that changed, about.
@@ -54,11 +62,24 @@ def _take_corners(board, h):
 
 
 @inner
-def _is_blocked_by_now(board, h, verdict, is_contested, number):
-    """Tell whether a new face would cut another one; the verdict tells how it was before."""
+def _is_refused(board, h, verdict, is_contested, number):
+    """Tell whether the edge `h` must not be flipped, and if so, let it wait for what is in its way.
+
+    The verdict tells how that was before the round. Only what is contested is asked again.
+    """
+    mesh = board.mesh
+    is_joined = verdict == IS_JOINED or (is_contested and not makes_new_edge(mesh, h))
+    if is_joined:
+        insert(board.awaited, apex(mesh, h), apex(mesh, mesh.twin[at(h)]))
+    if is_joined or verdict == FOLDS:
+        return True
     if verdict == IS_BLOCKED:
-        return is_blocked(board, h)
-    face = blocker(board.mesh, board.space, h, number) if is_contested else NONE
+        # Nothing was flipped yet in this round, so that the face is still there.
+        must_wait(board, h, blocker(mesh, board.space, h, EVER))
+        return True
+    if board.is_tie[at(h)] and brings_back(mesh, board.gone, h):
+        return True
+    face = blocker(mesh, board.space, h, number) if is_contested else NONE
     return must_wait(board, h, face)
 
 
@@ -97,18 +118,7 @@ def flip_peaks(look, start, stop, first, left, number, done):
     flipped, refused, gain, state = done
     for place in range(start, stop):
         h, verdict = np.int64(look.edges[at(place)]), look.verdict[at(place)]
-        is_tie = board.is_tie[at(h)]
-        is_joined = verdict == IS_JOINED
-        if verdict == IS_PEAK and place >= first:
-            is_joined = not makes_new_edge(mesh, h)
-        if is_joined:
-            insert(board.awaited, apex(mesh, h), apex(mesh, mesh.twin[at(h)]))
-        if (
-            is_joined
-            or verdict == FOLDS
-            or (is_tie and brings_back(mesh, board.gone, h))
-            or _is_blocked_by_now(board, h, verdict, place >= first, number)
-        ):
+        if _is_refused(board, h, verdict, place >= first, number):
             forbid(board, h)
             refused += 1
             board.done[at(len(board.done) - refused)] = h
@@ -117,7 +127,7 @@ def flip_peaks(look, start, stop, first, left, number, done):
             return flipped, refused, gain, STOPPED
         if rules.is_wide and not _take_corners(board, h):
             continue
-        if is_tie:
+        if board.is_tie[at(h)]:
             insert(board.gone, mesh.origin[h], mesh.origin[mesh.twin[h]])
         gain += board.gain[at(h)]
         flip(mesh, h)

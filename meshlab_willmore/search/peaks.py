@@ -1,6 +1,10 @@
 """The peaks of a round: edges that go before all edges which they conflict with.
 
-See `parallel_greedy` for what a conflict is, and why peaks can be flipped together.
+See `parallel_greedy` for what a conflict is, and why peaks can be flipped together. What becomes of
+a candidate is decided on the mesh before the first flip of the round. Only those that may be
+flipped then count as peaks here. They are all compared with each other: for the edges that they
+make, and for the faces. So whoever was refused must stay refused until the next round, even if a
+flip of this one takes away the reason: its new edge and its new faces were compared with nobody's.
 """
 
 from typing import NamedTuple
@@ -160,18 +164,20 @@ def in_order(look, number, flips, share):
     Returns
     -------
     look : Look
-        All edges of which something becomes.
+        All edges of which something becomes: first those that must not be flipped, then the peaks.
     first : int
         The place from which on it has to be asked whether a flip is still allowed.
     """
     board = look.board
     places = np.flatnonzero(look.verdict != STAYS)
-    peaks = Look(board, look.edges[places], look.verdict[places])
-    are_many = flips + len(places) > board.rules.maxflips
-    contested = _contested(peaks, number, board.rules.is_wide or are_many, share)
-    late = np.flatnonzero(contested)
-    edges = peaks.edges[late]
+    chosen = Look(board, look.edges[places], look.verdict[places])
+    is_peak = chosen.verdict == IS_PEAK
+    are_many = flips + np.count_nonzero(is_peak) > board.rules.maxflips
+    contested = _contested(chosen, number, board.rules.is_wide or are_many, share)
+    late = np.flatnonzero(is_peak & contested)
+    edges = chosen.edges[late]
     numbers = edges.astype(np.uint64) * SCRAMBLER & LOW_BITS
     late = late[np.lexsort((numbers, -board.rank[edges]))]
-    order = np.concatenate([np.flatnonzero(~contested), late])
-    return Look(board, peaks.edges[order], peaks.verdict[order]), len(order) - len(late)
+    early = np.flatnonzero(~is_peak), np.flatnonzero(is_peak & ~contested)
+    order = np.concatenate([*early, late])
+    return Look(board, chosen.edges[order], chosen.verdict[order]), len(order) - len(late)

@@ -21,9 +21,9 @@ from meshlab_willmore.search import lists, parallel_greedy, peaks
 from meshlab_willmore.search.board import board_of
 from meshlab_willmore.search.heap import NEVER
 from meshlab_willmore.search.kernels import KERNELS
-from meshlab_willmore.search.peaks import IS_JOINED, IS_PEAK, STAYS, Look
+from meshlab_willmore.search.peaks import IS_BLOCKED, IS_JOINED, IS_PEAK, STAYS, Look
 from meshlab_willmore.search.rules import CONVERGED, STOPPED
-from tests import meshes
+from tests import meshes, reference
 from tests.search.ways import FREE, GUARDED, MESHES, rules_for, shuffled
 
 HEAVY = pytest.mark.heavy
@@ -352,6 +352,52 @@ def test_with_the_guard_too_the_number_of_threads_changes_nothing(seed, monkeypa
         assert not (self_intersections(vertices, faces_of(mesh)) & is_new).any()
         results.append(mesh.origin.tobytes())
     assert results[0] == results[1]
+
+
+def freed_within_a_round():
+    """A closed mesh on which one flip of a round takes away the cut that forbade another one.
+
+    Both make the edge 3-4, which is of two faces already when the second one is freed.
+    """
+    vertices = np.array(
+        [
+            (0.41, 0.74, -0.54),
+            (0.77, -0.27, -0.57),
+            (0.98, 0.17, -0.13),
+            (-0.48, 0.76, 0.43),
+            (-0.29, 0.26, -0.92),
+            (0.43, -0.57, 0.7),
+        ]
+    )
+    faces = [(3, 1, 0), (5, 2, 3), (4, 1, 2), (1, 3, 2), (3, 0, 5), (0, 4, 5), (4, 0, 1), (2, 5, 4)]
+    return vertices, np.array(faces, np.int32)
+
+
+def test_what_a_cut_forbade_before_a_round_is_not_flipped_in_it():
+    vertices, faces = freed_within_a_round()
+    result = optimize_flips(vertices, faces, energy="area", checkintersections=True)
+    assert result.flips > 1
+    validate_connectivity(build(vertices, result.faces))
+    assert reference.edge_set(result.faces) != reference.edge_set(faces)
+    assert len(reference.edge_set(result.faces)) == len(reference.edge_set(faces)) == 12
+
+
+@HEAVY
+def test_what_must_not_be_flipped_waits_before_the_first_flip_of_a_round():
+    mesh = build(*meshes.crumpled(11, noise=1.5))
+    board, count = scored(mesh, rules_for("willmore", FREE), "willmore", space_of(mesh))
+    verdict, chosen, first = peaks_of(board, board.candidates[:count])
+    is_peak = chosen.verdict == IS_PEAK
+    assert IS_BLOCKED in verdict
+    assert 0 < np.count_nonzero(~is_peak) <= first
+    assert (np.sort(~is_peak)[::-1] == ~is_peak).all()
+    blocked = chosen.edges[chosen.verdict == IS_BLOCKED]
+    before = [ends(mesh, h) for h in blocked]
+    board, done = parallel_greedy._flip_all(board, chosen, first, 10**6, 1)
+    assert done.flipped > 0
+    assert [ends(mesh, h) for h in blocked] == before
+    assert (board.waiting.face[blocked] >= 0).all()
+    assert (board.rank[blocked] == NEVER).all()
 
 
 def test_a_new_board_forgets_the_rounds_of_a_run_before():

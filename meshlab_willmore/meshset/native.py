@@ -110,6 +110,31 @@ def ids(ms: MeshSet) -> list[int]:
 
 
 @contextmanager
+def kept_working_folder() -> Iterator[None]:
+    """The process is in the same working folder afterwards, whatever native calls do inside.
+
+    A load that fails leaves PyMeshLab in the folder of its file, and so does one that succeeds
+    where the working folder was deleted: relative names then mean other files.
+    """
+    if sys.platform == "win32":
+        folder = os.getcwd()
+        try:
+            yield
+        finally:
+            os.chdir(folder)
+        return
+    # By a descriptor it is found again under another name too, and without leave to read it.
+    descriptor = os.open(".", getattr(os, "O_PATH", os.O_RDONLY))
+    try:
+        yield
+    finally:
+        try:
+            os.fchdir(descriptor)
+        finally:
+            os.close(descriptor)
+
+
+@contextmanager
 def without_trace(ms: MeshSet) -> Iterator[None]:
     """Native filters inside print nothing and don't stay in the filter script of `ms`."""
     with _quiet(ms), unrecorded(ms):

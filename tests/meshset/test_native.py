@@ -1,8 +1,10 @@
 """Helper filters leave no trace: in the script, on the terminal, in verbosity."""
 
+import os
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pymeshlab
@@ -95,6 +97,28 @@ def test_overridden_methods_do_not_come_between():
     assert ms.apply_filter(FLIP)["flips"] > 0
     ms.compute_scalar_by_willmore_energy_per_vertex()
     np.testing.assert_array_equal(ms.current_mesh().vertex_matrix(), vertices)
+
+
+def test_the_working_folder_is_kept_also_one_that_was_moved_or_deleted(tmp_path, monkeypatch):
+    (tmp_path / "scans").mkdir()
+    broken = tmp_path / "scans" / "broken.ply"
+    broken.write_text("no mesh")
+    here = tmp_path / "here"
+    here.mkdir()
+    monkeypatch.chdir(here)
+    with pytest.raises(pymeshlab.PyMeshLabException), native.kept_working_folder():
+        pymeshlab.MeshSet().load_new_mesh(str(broken))
+    assert Path.cwd() == here
+    with native.kept_working_folder():
+        os.chdir(broken.parent)
+        here.rename(tmp_path / "there")
+    assert Path.cwd() == tmp_path / "there"
+    Path.cwd().rmdir()
+    with native.kept_working_folder():
+        os.chdir(broken.parent)
+    with pytest.raises(FileNotFoundError):
+        Path.cwd()
+    os.chdir(tmp_path)
 
 
 AFTER_A_FAILURE = """

@@ -124,7 +124,8 @@ def write(path: str | os.PathLike[str], steps: Iterable[Step]) -> None:
     Parameters
     ----------
     path : str or path
-        The file, which is replaced if it is there; it appears when it is whole.
+        The file, which is replaced if it is there, as is one that a link leads to; it appears when
+        it is whole. A pipe or device gets what is written.
     steps : iterable of Step
         PyMeshLab's names, old names, and parameters without a type become what MeshLab writes
         today; a step with a fault is written as it is.

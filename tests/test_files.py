@@ -1,18 +1,23 @@
-"""Files that are written whole, and folders that can be written into."""
+"""Files that are written whole, over files only, and folders that can be written into."""
 
 import os
+import socket
+import stat
+import sys
 from pathlib import Path
 
 import pytest
 
-from meshlab_willmore.files import writable_folder, written_whole
+from meshlab_willmore.files import put, special, writable_folder, write, written_whole
+
+POSIX = pytest.mark.skipif(sys.platform == "win32", reason="pipes, sockets and links of POSIX")
 
 
 def test_a_file_appears_whole_and_with_its_ending(tmp_path):
     path = tmp_path / "mesh.ply"
     with written_whole(path) as beside:
-        assert beside.parent == tmp_path
-        assert beside.suffix == ".ply"
+        assert beside.parent.parent == tmp_path
+        assert beside.name == path.name
         beside.write_text("new")
         assert not path.exists()
     assert path.read_text() == "new"
@@ -61,3 +66,110 @@ def test_a_folder_without_write_permission_is_named(tmp_path):
 def test_a_read_only_file_system_is_named():
     with pytest.raises(OSError, match=r"cannot write into /proc/self: "):
         writable_folder(Path("/proc/self"))
+
+
+# What is no regular file
+
+
+@pytest.fixture
+def nodes(tmp_path):
+    """A pipe, a socket, a folder and links that lead nowhere, and a link to each."""
+    os.mkfifo(tmp_path / "pipe")
+    with socket.socket(socket.AF_UNIX) as made:
+        here = Path.cwd()
+        os.chdir(tmp_path)  # a socket's name takes a hundred bytes
+        made.bind("socket")
+        os.chdir(here)
+    (tmp_path / "folder").mkdir()
+    for name in ("pipe", "socket", "folder", "ring"):
+        (tmp_path / f"to-{name}").symlink_to(name)
+    (tmp_path / "ring").symlink_to("to-ring")
+    return tmp_path
+
+
+def kinds(folder):
+    return {path.name: stat.S_IFMT(path.lstat().st_mode) for path in folder.iterdir()}
+
+
+@POSIX
+@pytest.mark.parametrize("name", ["pipe", "socket", "folder", "ring"])
+@pytest.mark.parametrize("link", ["", "to-"])
+def test_nothing_but_a_file_is_replaced(nodes, name, link):
+    path = nodes / f"{link}{name}"
+    draft = nodes / "draft"
+    draft.write_text("new")
+    before = kinds(nodes)
+    with pytest.raises(OSError, match=f"^cannot write {path}: "), written_whole(path) as beside:
+        beside.write_text("new")
+    with pytest.raises(OSError, match=f"^cannot write {path}: "):
+        put(draft, path)
+    with pytest.raises(OSError, match=f"^cannot write {path}: "):
+        write(path, b"new")
+    assert kinds(nodes) == before
+
+
+@POSIX
+@pytest.mark.parametrize("name", ["pipe", "to-pipe"])
+def test_a_pipe_gets_the_data_from_whom_it_is_read(nodes, name):
+    end = os.open(nodes / "pipe", os.O_RDONLY | os.O_NONBLOCK)
+    write(nodes / name, b"all of it")
+    assert os.read(end, 100) == b"all of it"
+    os.close(end)
+    assert special(nodes / name) == "a pipe"
+
+
+@POSIX
+def test_a_device_is_written_into():
+    assert special(Path("/dev/null")) == "a device"
+    write(Path("/dev/null"), b"nowhere")
+    if Path("/dev/full").exists():
+        with pytest.raises(OSError, match=r"^cannot write /dev/full: No space left on device$"):
+            write(Path("/dev/full"), b"nowhere")
+
+
+@POSIX
+def test_a_file_behind_links_is_replaced_and_keeps_its_mode(tmp_path):
+    folder = tmp_path / "elsewhere"
+    folder.mkdir()
+    real = folder / "real"
+    real.write_text("old")
+    real.chmod(0o640)
+    (tmp_path / "second.mlx").symlink_to("elsewhere/real")
+    link = tmp_path / "first.mlx"
+    link.symlink_to("second.mlx")
+    with written_whole(link) as beside:
+        assert beside.suffix == ".mlx"
+        beside.write_text("new")
+    assert link.is_symlink()
+    assert real.read_text() == "new"
+    assert stat.S_IMODE(real.stat().st_mode) == 0o640
+    assert sorted(os.listdir(tmp_path)) == ["elsewhere", "first.mlx", "second.mlx"]
+    assert os.listdir(folder) == ["real"]
+
+
+@POSIX
+def test_a_link_that_leads_nowhere_leads_to_the_new_file(tmp_path):
+    link = tmp_path / "link"
+    link.symlink_to("real")
+    write(link, b"new")
+    assert link.is_symlink()
+    assert (tmp_path / "real").read_bytes() == b"new"
+    other = tmp_path / "other"
+    other.symlink_to("no/real")
+    with pytest.raises(OSError, match=r"^cannot write .*No such file or directory$"):
+        write(other, b"new")
+
+
+def test_a_file_of_somebody_else_beside_is_left_alone(tmp_path):
+    mine = tmp_path / f".mesh.{os.getpid()}.ply"
+    mine.write_text("mine")
+    with written_whole(tmp_path / "mesh.ply") as beside:
+        beside.write_text("new")
+    assert mine.read_text() == "mine"
+
+
+def test_a_name_may_be_as_long_as_the_disk_takes(tmp_path):
+    path = tmp_path / ("n" * 251 + ".ply")
+    with written_whole(path) as beside:
+        beside.write_text("new")
+    assert path.read_text() == "new"

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import os
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from .errors import debug_option, wrong_use
+from ..files import is_stream, write
+from .errors import debug_option
 from .outputs import check_place
-from .placing import beside, put
+from .scripts import STANDARD_STREAM, source_of
 
 if TYPE_CHECKING:
     from ..meshset.check import Call
@@ -19,9 +20,9 @@ EXAMPLES = """\b
 Examples:
   meshlab-willmore convert old.mlx today.mlx
   meshlab-willmore convert clean.mlx for-the-window.mlx --meshlab
+  meshlab-willmore convert old.mlx - | meshlab-willmore run - -i a.ply -o b.ply
 """
 
-_DRAFT = "script.mlx"
 _COMMENT = b"<!--"
 
 
@@ -37,32 +38,43 @@ def command(source: str, target: Path, meshlab: bool, force: bool) -> None:
     """Rewrite a filter script with today's names of filters, parameters and types.
 
     Old forms, from the time of meshlabserver, and PyMeshLab's names become what MeshLab writes
-    today. A script with faults is not converted.
+    today. A script with faults is not converted. For SCRIPT and OUT, - is the standard input and
+    output; pipes will do as well.
     """
+    from ..meshset.check import resolve
     from ..meshset.modern import in_todays_form
-    from ..mlx.write import write
-    from ..script import calls, read
+    from ..mlx.write import to_xml
 
-    if not os.path.isfile(source):
-        raise wrong_use(f"there is no filter script {source}")
-    check_place(target, force, "today.mlx")
-    steps = read(source)
-    checked = calls(source)
+    is_output = str(target) == STANDARD_STREAM
+    if not is_output:
+        check_place(target, force, "today.mlx", takes_streams=True)
+    script = source_of(source)
+    steps = script.steps()
+    checked = resolve(steps, script.name, None)
     kept = [call for call in checked if not (meshlab and call.known.ours)]
-    with beside(target) as folder:
-        draft = folder / _DRAFT
-        write(draft, [in_todays_form(call, steps[call.number - 1]) for call in kept])
-        put(draft, target)
-    click.echo(f"{source} -> {target}: {len(kept)} of {len(checked)} steps")
+    data = to_xml(in_todays_form(call, steps[call.number - 1]) for call in kept).encode()
+    if is_output:
+        click.echo(data, nl=False)
+    else:
+        write(target, data)
+    # What comes out of the script must be nothing but a script.
+    beside = is_output or is_stream(target)
+    click.echo(f"{script.name} -> {target}: {len(kept)} of {len(checked)} steps", err=beside)
     if not kept:
-        click.echo(f"nothing is left: {target} has no steps")
-    if _COMMENT in Path(source).read_bytes():
-        click.echo("left out: the comments")
+        click.echo(f"nothing is left: {target} has no steps", err=beside)
+    if _COMMENT in script.data:
+        click.echo("left out: the comments", err=beside)
+    for line in _changes(checked, kept, meshlab):
+        click.echo(line, err=beside)
+
+
+def _changes(checked: Sequence[Call], kept: Sequence[Call], meshlab: bool) -> Iterator[str]:
+    """What is not as it was, in a line each."""
     for call in checked:
         if call not in kept:
-            click.echo(f"left out: step {call.number}, {call.known.meshlab_name}")
+            yield f"left out: step {call.number}, {call.known.meshlab_name}"
         elif meshlab and _shares(call):
-            click.echo(
+            yield (
                 f"step {call.number}, {call.known.meshlab_name}: a percentage depends on the mesh; "
                 f"MeshLab's window wants another value for {', '.join(_shares(call))}"
             )

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from .columns import counted
 from .errors import debug_option
 from .inputs import matches, refuse_folder
+from .scripts import STANDARD_STREAM, source_of
+
+if TYPE_CHECKING:
+    from ..mlx.steps import Step
 
 EXAMPLES = """\b
 Examples:
@@ -24,15 +29,15 @@ def command(scripts: tuple[str, ...]) -> None:
     """Check filter scripts without running them: a line for each fault.
 
     Unknown filters and parameters, values that can't be, and all that MeshLab would skip without a
-    word. Exit code 1 if a script has faults.
+    word. Exit code 1 if a script has faults. Scripts can come from pipes; - is the standard input.
     """
     from ..mlx.steps import ScriptError
-    from ..script import check, read
+    from ..script import check
 
     faulty = 0
     for path in _expanded(scripts):
         try:
-            steps = read(path)
+            steps = _steps(path)
             faults = check(steps)
         except ScriptError as error:
             steps, faults = (), list(error.faults)
@@ -50,3 +55,9 @@ def _expanded(names: tuple[str, ...]) -> list[Path]:
     for path in paths:
         refuse_folder(path, "scripts", "*.mlx")
     return paths
+
+
+def _steps(path: Path) -> tuple[Step, ...]:
+    from ..script import read
+
+    return source_of(STANDARD_STREAM).steps() if str(path) == STANDARD_STREAM else read(path)

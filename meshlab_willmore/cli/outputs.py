@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-from ..files import writable_folder
+from ..files import UnwritableError, is_stream, place_of, refuse_special, writable_folder
 from . import formats
 from .errors import wrong_use
 
@@ -123,32 +123,37 @@ def check_target(path: Path, force: bool) -> None:
             f"the format of {path} is unknown: {told}; there are {', '.join(formats.COMMON)}"
         )
     writable_folder(path.parent)
-    writable_folder(_folder(path))
+    writable_folder(place_of(path).parent)
 
 
-def check_place(path: Path, force: bool, example: str = "{name}.ply") -> None:
+def check_place(
+    path: Path, force: bool, example: str = "{name}.ply", takes_streams: bool = False
+) -> None:
     """Raise `WrongUse` if no new file can have this name.
 
     Parameters
     ----------
     example : str
         A name that a file in a folder could have.
+    takes_streams : bool
+        Whether a pipe or device will do: nothing of it is replaced.
     """
     _check_length(path)
     if path.is_dir():
         raise wrong_use(f"{path} is a folder; name a file in it, such as '{path / example}'")
-    folder = _folder(path)
+    try:
+        if takes_streams and is_stream(path):
+            return
+        refuse_special(path)
+    except UnwritableError as error:
+        raise wrong_use(str(error)) from error
+    folder = place_of(path).parent
     if not folder.is_dir():
         what = "is a file, no folder" if folder.exists() else "does not exist"
         raise wrong_use(f"cannot write {path}: the folder {folder} {what}")
     # A link that leads nowhere is there as well.
     if os.path.lexists(path) and not force:
         raise wrong_use(f"{path} is there already; --force replaces it")
-
-
-def _folder(path: Path) -> Path:
-    """Where the file will be: a link stays, and what it leads to is replaced."""
-    return Path(os.path.realpath(path)).parent if path.is_symlink() else path.parent
 
 
 def _check_length(path: Path) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import time
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
@@ -16,6 +15,7 @@ from .columns import counted
 from .errors import debug_option, one_line, wrong_use
 from .flip import FILTER
 from .masks import by_output, is_part, mask_option
+from .scripts import Source, is_script, source_of
 from .spelling import SeveralValues, of_today, spelled_out
 
 if TYPE_CHECKING:
@@ -62,8 +62,8 @@ class RunCommand(SeveralValues):
     """`run`, with several values after -i and -m; a script's name is never an input."""
 
     several: ClassVar = {
-        "-i": lambda word: not word.endswith(".mlx"),
-        "--input": lambda word: not word.endswith(".mlx"),
+        "-i": lambda word: not is_script(word),
+        "--input": lambda word: not is_script(word),
         "-m": is_part,
         "--mask": is_part,
     }
@@ -122,8 +122,8 @@ def _placeholders() -> str:
 def command(script: str | None, also: str | None, **given: Any) -> None:
     """Run a MeshLab filter script (.mlx) on meshes, and save what comes out.
 
-    The whole script is checked before its first step. An output is there when it is whole, not
-    before. Several inputs are run one after the other; if one fails, the others go on, and the
+    The whole script is checked before its first step; it can come from a pipe, and - is the
+    standard input. An output is there when it is whole, not before. Several inputs are run one after the other; if one fails, the others go on, and the
     exit code is 1 in the end.
 
     With --layers the first input is the current layer, as in meshlabserver. One -o saves the mesh
@@ -135,10 +135,10 @@ def command(script: str | None, also: str | None, **given: Any) -> None:
     """
     from . import inputs, jobs, runlog
 
-    path = _script_of(script, also)
+    source = _script_of(script, also)
     orders = Orders(
-        str(path),
-        _steps(path, given["settings"]),
+        source.name,
+        _steps(source, given["settings"]),
         tuple(by_output(click.get_current_context().meta[_ORDER], given["parts"])),
         given["force"],
         given["stop"],
@@ -147,7 +147,7 @@ def command(script: str | None, also: str | None, **given: Any) -> None:
     todo = jobs.plan(
         inputs.expand(given["inputs"]), given["patterns"], given["layers"], orders.force
     )
-    runlog.check(given["log"], [path, *(file for job in todo for file in job.files)])
+    runlog.check(given["log"], [Path(source.name), *(file for job in todo for file in job.files)])
     if not orders.dry_run and _has_flips(orders.steps):
         playing.tell_of_compiling()
     with (
@@ -157,30 +157,26 @@ def command(script: str | None, also: str | None, **given: Any) -> None:
         _run_all(orders, todo, log)
 
 
-def _script_of(script: str | None, also: str | None) -> Path:
+def _script_of(script: str | None, also: str | None) -> Source:
     if (script is None) == (also is None):
         raise wrong_use(
             "name the script once, such as: run clean.mlx -i scan.ply -o clean.ply"
             if script
             else "there is no script; name one, such as: run clean.mlx -i scan.ply -o clean.ply"
         )
-    path = Path(script or also or "")
-    if not os.path.isfile(path):
-        raise wrong_use(f"there is no filter script {path}")
-    return path
+    return source_of(script or also or "")
 
 
-def _steps(path: Path, settings: Sequence[str]) -> tuple[Step, ...]:
+def _steps(source: Source, settings: Sequence[str]) -> tuple[Step, ...]:
     """The script, changed and checked as far as that is possible without meshes."""
     from ..meshset.check import faults_of
-    from ..mlx.read import read
     from ..mlx.steps import ScriptError
     from .settings import with_settings
 
-    steps = with_settings(read(path), settings)
+    steps = with_settings(source.steps(), settings)
     faults = faults_of(steps)
     if faults:
-        raise ScriptError(str(path), faults)
+        raise ScriptError(source.name, faults)
     return steps
 
 

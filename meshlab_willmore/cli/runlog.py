@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import re
 import sys
@@ -11,7 +12,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
-from ..files import writable_folder
+from ..files import is_stream, opened_stream, place_of, refuse_special, writable_folder
 from .errors import wrong_use
 from .told import in_line
 
@@ -105,12 +106,16 @@ def check(path: str | None, others: Iterable[Path]) -> None:
             raise wrong_use(f"-l {path}: the log would be written into {other}; give it a new name")
     if os.path.isdir(log):
         raise wrong_use(f"-l {path} is a folder; name a file in it, such as '{log / 'log.txt'}'")
+    if is_stream(log):
+        return
+    refuse_special(log)
+    folder = place_of(log).parent
     if os.path.isfile(log):
         _check_log(log)
-    elif not os.path.isdir(log.parent):
-        raise wrong_use(f"cannot write the log {path}: there is no folder {log.parent}")
-    elif not os.path.lexists(log):
-        writable_folder(log.parent)
+    elif not os.path.isdir(folder):
+        raise wrong_use(f"cannot write the log {path}: there is no folder {folder}")
+    elif not os.path.exists(log):
+        writable_folder(folder)
 
 
 def _is_same(left: Path, right: Path) -> bool:
@@ -149,7 +154,7 @@ def opened(path: str | None) -> Iterator[Log]:
         return
     try:
         # Closed by hand: what is left of a full disk's log must not hide what was said of it.
-        stream = Path(path).open("a", encoding="utf-8", errors="backslashreplace")  # noqa: SIM115
+        stream = _appending(Path(path))
     except OSError as error:
         raise OSError(f"cannot write the log {path}: {error.strerror}") from error
     try:
@@ -157,6 +162,13 @@ def opened(path: str | None) -> Iterator[Log]:
     finally:
         with suppress(OSError):
             stream.close()
+
+
+def _appending(path: Path) -> TextIO:
+    """The file, pipe or device, ready for more text."""
+    if is_stream(path):
+        return io.TextIOWrapper(opened_stream(path), "utf-8", "backslashreplace")
+    return path.open("a", encoding="utf-8", errors="backslashreplace")
 
 
 def _given(known: Known, given: Mapping[str, Any]) -> str:

@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
+from ..files import folder_beside, put, refuse_special
 from . import attributes, textures
 from .errors import reason
 from .masks import TEXTURED, keywords, not_held
-from .placing import beside, put
 
 if TYPE_CHECKING:
     import pymeshlab
@@ -55,7 +55,7 @@ def save(ms: pymeshlab.MeshSet, path: Path, wish: Wish) -> list[Path]:
     note = not_held(wish.parts, path.suffix.lstrip("."))
     if note:
         click.echo(f"Note: {note}", err=True)
-    with beside(path) as folder:
+    with folder_beside(path) as folder:
         images = _textures(ms, path, wish)
         draft = _inside(folder, images) / path.name
         _write(ms, draft, path, wish)
@@ -144,8 +144,9 @@ def _check_whole(source: Path, target: Path) -> None:
 
 
 def _check_free(moves: list[tuple[Path, Path]], path: Path, force: bool) -> None:
-    """Raise if a file of somebody else would be replaced without `force`."""
+    """Raise if a file of somebody else would be replaced without `force`, or what is no file."""
     for source, target in moves:
+        refuse_special(target)
         if target.is_file() and filecmp.cmp(source, target, shallow=False) and target != path:
             continue
         if os.path.lexists(target) and not force:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from os import PathLike
 from pathlib import Path
 
-from ..files import written_whole
+from .. import files
 from . import rich
 from .elements import FILTER, PARAM, ROOT
 from .read import read_bytes
@@ -61,7 +61,8 @@ def write(path: str | PathLike[str], steps: Iterable[Step]) -> None:
     Parameters
     ----------
     path : str or path
-        An older file there is replaced.
+        An older file there is replaced, and so is the one that a link leads to. A pipe or device
+        gets what is written.
     steps : iterable of Step
 
     Raises
@@ -71,12 +72,7 @@ def write(path: str | PathLike[str], steps: Iterable[Step]) -> None:
     OSError
         In one line, with the file's name and the reason.
     """
-    data = to_xml(steps).encode()
-    try:
-        with written_whole(Path(path)) as beside:
-            beside.write_bytes(data)
-    except OSError as error:
-        raise OSError(f"cannot write {path}: {error.strerror or error}") from error
+    files.write(Path(path), to_xml(steps).encode())
 
 
 def _lines(steps: tuple[Step, ...], faults: list[Fault]) -> Iterator[str]:

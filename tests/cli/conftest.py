@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
@@ -22,9 +23,9 @@ def _folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
-def call(*arguments):
+def call(*arguments, **given):
     """Run a command in this process."""
-    return CliRunner().invoke(main, [str(argument) for argument in arguments])
+    return CliRunner().invoke(main, [str(argument) for argument in arguments], **given)
 
 
 def spawn(*arguments, **given):
@@ -36,6 +37,16 @@ def spawn(*arguments, **given):
         check=False,
         **given,
     )
+
+
+@contextmanager
+def piped(data):
+    """The name of a pipe with `data` in it, as a shell's ``<(...)`` gives it."""
+    end, start = os.pipe()
+    os.write(start, data)
+    os.close(start)
+    yield f"/dev/fd/{end}"
+    os.close(end)
 
 
 def cube_file(path="cube.ply"):

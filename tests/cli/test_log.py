@@ -1,6 +1,9 @@
 """`-l`: where a log may be written, and what is said when it can't be."""
 
 import os
+import re
+import socket
+import stat
 import sys
 from pathlib import Path
 
@@ -96,3 +99,39 @@ def test_a_full_disk_is_told_of_the_log(run):
     assert result.exit_code == 1
     assert result.stderr == "Error: cannot write the log /dev/full: No space left on device\n"
     assert not Path("out.ply").exists()
+
+
+@POSIX
+def test_a_log_goes_into_a_pipe_if_somebody_reads(run):
+    os.mkfifo("pipe")
+    result = call(*run, "-l", "pipe")
+    assert result.exit_code == 1
+    assert result.stderr == "Error: cannot write the log pipe: nobody reads from this pipe\n"
+    end = os.open("pipe", os.O_RDONLY | os.O_NONBLOCK)
+    assert call(*run, "-l", "pipe").exit_code == 0
+    assert os.read(end, 1 << 16).splitlines()[-1].startswith(b"done, ")
+    os.close(end)
+
+
+@POSIX
+@pytest.mark.parametrize("name", ["socket", "link.txt"])
+def test_a_socket_takes_no_log(run, no_step, name):
+    with socket.socket(socket.AF_UNIX) as made:
+        made.bind("socket")
+    Path("link.txt").symlink_to("socket")
+    result = call(*run, "-l", name, "--force")
+    assert result.exit_code == 1
+    assert re.match(rf"Error: cannot write {name}: it (is|leads to) a socket", result.stderr)
+    assert stat.S_ISSOCK(Path("socket").stat().st_mode)
+
+
+@POSIX
+def test_a_link_that_leads_nowhere_leads_to_the_log(run):
+    Path("folder").mkdir()
+    Path("link.txt").symlink_to("folder/log.txt")
+    assert call(*run, "-l", "link.txt").exit_code == 0
+    assert Path("folder/log.txt").read_text().endswith(" s\n")
+    Path("other.txt").symlink_to("no/log.txt")
+    result = call(*run, "-l", "other.txt", "--force")
+    assert result.exit_code == 2
+    assert result.stderr.startswith("Error: cannot write the log other.txt: there is no folder ")

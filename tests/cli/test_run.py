@@ -22,6 +22,7 @@ from .conftest import (
     cube_file,
     listing,
     loaded,
+    piped,
     same_mesh,
     script_file,
     spawn,
@@ -82,6 +83,33 @@ def test_in_a_process_of_its_own_it_prints_the_result_and_nothing_else(script, c
 )
 def test_options_in_any_order_as_meshlabserver_took_them(script, cube, arguments):
     assert call("run", *arguments).exit_code == 0
+    assert same_mesh("out.ply", expected("expected.ply"))
+
+
+@pytest.mark.parametrize("name", ["UPPER.MLX", "Mixed.Mlx"])
+def test_a_script_is_known_by_its_ending_in_any_case(script, cube, name):
+    Path(name).write_bytes(script.read_bytes())
+    assert call("run", "-i", cube, name, "-o", "out.ply").exit_code == 0
+    assert same_mesh("out.ply", expected("expected.ply"))
+
+
+def test_a_script_on_the_standard_input(script, cube):
+    text = script.read_text()
+    for order in (["-", "-i", cube], ["-i", cube, "-"], ["-s", "-", "-i", cube]):
+        result = call("run", *order, "-o", "out.ply", "--force", input=text)
+        assert (result.exit_code, result.stderr) == (0, "")
+    assert same_mesh("out.ply", expected("expected.ply"))
+    result = call("run", "-", "-i", cube, input=text.replace("Taubin Smooth", "Taubin Smoth"))
+    assert result.exit_code == 1
+    assert result.stderr.startswith("Error: standard input: step 2 (Taubin Smoth): ")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pipes of POSIX")
+@pytest.mark.parametrize("before", [[], ["-s"], ["-i", "cube.ply"]])
+def test_a_script_from_a_pipe(script, cube, before):
+    with piped(script.read_bytes()) as name:
+        arguments = [*before, name, "-i", cube] if before[:1] != ["-i"] else [*before, name]
+        assert call("run", *arguments, "-o", "out.ply").exit_code == 0
     assert same_mesh("out.ply", expected("expected.ply"))
 
 

@@ -1,6 +1,7 @@
 """Saving: whole or not at all, with textures and materials, and never over somebody's file."""
 
 import os
+import socket
 import stat
 import subprocess
 import sys
@@ -308,6 +309,36 @@ def test_a_link_into_no_folder_is_found_before(tmp_path):
     link.symlink_to("no/real.ply")
     with pytest.raises(click.ClickException, match=r"cannot write .*a\.ply: the folder .*no does"):
         check_place(link, force=True)
+
+
+@POSIX
+@pytest.mark.parametrize("link", ["", "to-"])
+@pytest.mark.parametrize("kind", ["pipe.ply", "socket.ply", "folder.ply"])
+def test_what_is_no_file_is_never_replaced(kind, link):
+    os.mkfifo("pipe.ply")
+    with socket.socket(socket.AF_UNIX) as made:
+        made.bind("socket.ply")
+    Path("folder.ply").mkdir()
+    Path(f"to-{kind}").symlink_to(kind)
+    before = {name: os.lstat(name).st_mode for name in listing()}
+    path = Path(f"{link}{kind}")
+    with pytest.raises(click.ClickException, match=r"is a folder|cannot write .* a (pipe|socket)"):
+        check_place(path, force=True)
+    with pytest.raises(OSError, match=r"cannot write .* a (pipe|socket|folder), and only files"):
+        save(cube_set(), path, Wish(force=True))
+    assert {name: os.lstat(name).st_mode for name in listing()} == before
+
+
+@POSIX
+@pytest.mark.parametrize("name", [IMAGE, "a.obj.mtl"])
+def test_a_file_beside_the_mesh_replaces_files_only(name):
+    ms = textured_set()
+    os.mkfifo("pipe")
+    Path(name).symlink_to("pipe")
+    with pytest.raises(OSError, match=f"cannot write {name}: it leads to a pipe"):
+        save(ms, Path("a.obj"), Wish(force=True, origin=SAMPLES))
+    assert listing() == sorted([name, "pipe"])
+    assert stat.S_ISFIFO(os.stat(name).st_mode)
 
 
 # Custom attributes

@@ -1,5 +1,8 @@
 """`lint` and `convert`: scripts without meshes."""
 
+import os
+import re
+import socket
 import stat
 import sys
 from pathlib import Path
@@ -8,7 +11,7 @@ import pytest
 
 from meshlab_willmore import script
 
-from .conftest import FLIP, TAUBIN, call, listing, script_file
+from .conftest import FLIP, TAUBIN, call, listing, piped, script_file
 
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="modes and links of POSIX")
 
@@ -165,3 +168,58 @@ def test_a_script_behind_a_link_is_replaced_and_keeps_its_mode():
     assert stat.S_IMODE(Path("real.mlx").stat().st_mode) == 0o640
     assert [step.filter for step in script.read("real.mlx")] == ["Taubin Smooth"]
     assert listing() == ["a.mlx", "link.mlx", "real.mlx"]
+
+
+# From and into pipes
+
+
+def test_lint_and_convert_read_the_standard_input():
+    text = script_file(TAUBIN, path="a.mlx").read_text()
+    result = call("lint", "-", input=text)
+    assert (result.exit_code, result.stdout) == (0, "-: fine, 1 step\n")
+    result = call("convert", "-", "-", input=text)
+    assert (result.exit_code, result.stderr) == (0, "standard input -> -: 1 of 1 steps\n")
+    assert call("lint", "-", input=result.stdout).exit_code == 0
+    assert listing() == ["a.mlx"]
+    assert call("lint", "-", input="").stdout.startswith("-: is empty")
+
+
+@POSIX
+def test_convert_and_lint_read_a_pipe_once():
+    text = script_file(TAUBIN, path="a.mlx").read_bytes()
+    with piped(text) as name:
+        assert call("convert", name, "b.mlx").exit_code == 0
+    assert [step.filter for step in script.read("b.mlx")] == ["Taubin Smooth"]
+    with piped(text) as name:
+        assert call("lint", name).stdout == f"{name}: fine, 1 step\n"
+
+
+@POSIX
+def test_convert_writes_into_a_pipe_and_nothing_else_goes_there():
+    script_file(TAUBIN, path="a.mlx")
+    os.mkfifo("pipe")
+    end = os.open("pipe", os.O_RDONLY | os.O_NONBLOCK)
+    result = call("convert", "a.mlx", "pipe")
+    data = os.read(end, 1 << 16)
+    os.close(end)
+    assert (result.exit_code, result.stdout) == (0, "")
+    assert call("convert", "a.mlx", "b.mlx").exit_code == 0
+    assert data == Path("b.mlx").read_bytes()
+    assert stat.S_ISFIFO(Path("pipe").stat().st_mode)
+    unread = call("convert", "a.mlx", "pipe")
+    assert unread.exit_code == 1
+    assert unread.stderr == "Error: cannot write pipe: nobody reads from this pipe\n"
+
+
+@POSIX
+@pytest.mark.parametrize("name", ["socket", "link.mlx"])
+def test_what_is_no_file_is_not_replaced_by_a_script(name):
+    script_file(TAUBIN, path="a.mlx")
+    with socket.socket(socket.AF_UNIX) as made:
+        made.bind("socket")
+    Path("link.mlx").symlink_to("socket")
+    result = call("convert", "a.mlx", name, "--force")
+    assert result.exit_code == 2
+    assert re.match(rf"Error: cannot write {name}: it (is|leads to) a socket, ", result.stderr)
+    assert stat.S_ISSOCK(Path("socket").stat().st_mode)
+    assert Path("link.mlx").is_symlink()

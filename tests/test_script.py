@@ -228,6 +228,19 @@ def test_files_can_be_read_and_written_after_a_step_failed(tmp_path):
     assert (run.returncode, run.stdout) == (0, "1\n")
 
 
+def test_markup_of_native_messages_is_for_windows():
+    ms = pymeshlab.MeshSet()
+    ms.add_mesh(pymeshlab.Mesh(np.random.default_rng(0).random((9, 3))))
+    with pytest.raises(pymeshlab.PyMeshLabException) as caught:
+        script.run([Step("Montecarlo Sampling")], ms)
+    assert str(caught.value).endswith("with faces, it does not work on Point Clouds")
+    condition = Step(
+        "Conditional Vertex Selection", (Param("condSelect", "RichString", "x < 1 &amp; y"),)
+    )
+    with pytest.raises(pymeshlab.PyMeshLabException, match="&amp; y"):
+        script.run([condition], ms)
+
+
 def test_a_script_is_written_in_meshlabs_words(tmp_path):
     """PyMeshLab's names are for Python; neither MeshLab nor native scripts know them."""
     step = Step("create_sphere", (Param("subdiv", "", "2"), Param("radius", "RichFloat", 3.0)))

@@ -9,6 +9,7 @@ from typing import Any
 
 import click
 
+from ..markup import plain
 from ..mlx.steps import ScriptError
 from . import stopping, streams
 
@@ -86,8 +87,8 @@ def one_line(error: BaseException) -> str:
 
 
 def reason(error: BaseException) -> str:
-    """What an error says, in one line, without what PyMeshLab puts before it."""
-    text = _PRELUDE.split(str(error))[-1]
+    """What an error says, in one line, without what PyMeshLab puts before it and markup."""
+    text = plain(_PRELUDE.split(str(error))[-1])
     return " ".join(text.split()) or type(error).__name__
 
 

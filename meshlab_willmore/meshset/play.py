@@ -14,6 +14,7 @@ import numpy as np
 import pymeshlab
 from pymeshlab import MeshSet
 
+from ..markup import plain
 from ..mlx.steps import Percentage
 from . import layers, native, numbering
 from .apply import apply, values_of
@@ -100,16 +101,19 @@ def _play_one(ms: MeshSet, call: Call, source: str) -> Played:
         if not call.known.ours:
             native.forget_failures()
         raise pymeshlab.PyMeshLabException(
-            f"{source}, step {call.number} ({name}): {_reason(error, name)}"
+            f"{source}, step {call.number} ({name}): {_reason(error, call)}"
         ) from error
     return Played(call.number, name, given, time.perf_counter() - start, returned)
 
 
-def _reason(error: Exception, name: str) -> str:
-    """The message without what PyMeshLab puts before it: the step is named anyway."""
+def _reason(error: Exception, call: Call) -> str:
+    """The message without markup, and without what PyMeshLab puts before it: the step is named."""
+    name, given = call.known.name, call.given.values()
     text = str(error)
     for start in (f"Failed to apply filter: {name}", f"Failed to apply filter:  '{name}."):
         text = text.removeprefix(start)
+    if not call.known.ours:
+        text = plain(text, *(value for value in given if isinstance(value, str)))
     return text.strip().removeprefix("Details: ") or type(error).__name__
 
 

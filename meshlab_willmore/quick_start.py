@@ -3,17 +3,66 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import gc
 import importlib
 import importlib.util
+import re
+import warnings
 from collections.abc import Iterator
 from typing import Any
 
+from . import machine
+
 
 def import_numba() -> None:
-    """Import Numba, if it can be; who needs it is told what is wrong."""
-    with paused_collector(), contextlib.suppress(Exception):
-        importlib.import_module("numba")
+    """Import Numba, if it can be; who needs it is told what is wrong.
+
+    Raises
+    ------
+    SettingError
+        A variable of Numba's is wrong. Numba itself would print a traceback and take no notice, or
+        fail later.
+
+    Warns
+    -----
+    MachineWarning
+        The folder that ``NUMBA_CACHE_DIR`` names is of no use.
+    """
+    problems = machine.wrong_settings()
+    if not problems:
+        _unread.extend(_unread_settings())
+        problems = _unread
+    if problems:
+        raise machine.SettingError(str(machine.join(problems)))
+    _warn_of_cache()
+
+
+@functools.cache
+def _warn_of_cache() -> None:
+    problem = machine.cache_problem()
+    if problem is not None:
+        warnings.warn(str(problem), machine.MachineWarning, stacklevel=4)
+
+
+# Numba reads its variables once.
+_unread: list[machine.Problem] = []
+
+
+def _unread_settings() -> Iterator[machine.Problem]:
+    """Import Numba, and give what it can't read; other warnings are shown as ever."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.filterwarnings("always", "Environment variable", RuntimeWarning)
+        with paused_collector(), contextlib.suppress(Exception):
+            importlib.import_module("numba")
+    for warning in caught:
+        found = re.match(r"Environment variable '(\w+)' is defined", str(warning.message))
+        if found:
+            yield machine.unread(found[1])
+        else:
+            warnings.showwarning(
+                warning.message, warning.category, warning.filename, warning.lineno
+            )
 
 
 def load_numba() -> None:

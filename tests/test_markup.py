@@ -18,9 +18,9 @@ POISSON = (
         (
             POISSON,
             "Filter requires correct per vertex normals. E.g. ALL the input vertices have a "
-            "proper, not-null normal. Try enabling the pre-clean option. Use the Remove Unreferenced "
-            "Vertices filter. If you encounter this on a pointcloud try the Conditional Vertex "
-            "Selection filter with function '(nx==0.0) && (ny==0.0)'.",
+            "proper, not-null normal. Try enabling the pre-clean option. Use the Remove "
+            "Unreferenced Vertices filter. If you encounter this on a pointcloud try the "
+            "Conditional Vertex Selection filter with function '(nx==0.0) && (ny==0.0)'.",
         ),
         ("with faces,<br> not on\n points", "with faces, not on points"),
         ("field.<BR/>Make sure", "field. Make sure"),

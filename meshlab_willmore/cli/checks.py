@@ -11,8 +11,10 @@ from importlib import metadata
 from pathlib import Path
 from typing import NamedTuple
 
+from .. import machine
 from .._version import __version__
 from . import probe
+from .columns import counted
 
 OLDEST_PYTHON = (3, 10)
 LIBRARIES = ("pymeshlab", "numpy", "numba")
@@ -27,7 +29,6 @@ WARM_UP = "meshlab-willmore warmup"
 
 # Meshes and textures pass through the folder for temporary files.
 ROOM_WANTED = 200 * 2**20
-_MIB = 2**20
 # More filters than this are counted, not named.
 _NAMED = 6
 
@@ -120,6 +121,9 @@ def _missing_libraries(printed: str) -> list[str]:
 def filters() -> Finding:
     """Our filters are registered, and PyMeshLab has all that its version should have."""
     answer = probe.ask(probe.FILTERS)
+    wrong = _wrong_setting("filters", answer)
+    if wrong:
+        return wrong
     if not answer.values.get("registered"):
         lines = answer.printed.splitlines() or ["no reason was given"]
         text = f"the Willmore filters are not there: {lines[-1]}"
@@ -140,39 +144,80 @@ def _named(names: list[str]) -> str:
     return ", ".join(names[:_NAMED]) + (f" and {more} more" if more > 0 else "")
 
 
-def threads() -> Finding:
-    """Numba can compile, and has a threading layer."""
+def settings() -> Finding:
+    """Numba's variables have values that they can have."""
+    name = "variables"
+    answer = probe.ask(probe.SETTINGS)
+    given = [f"{key}={value}" for key, value in os.environ.items() if key.startswith("NUMBA_")]
+    return _wrong_setting(name, answer) or Finding(
+        name, True, ", ".join(sorted(given)) or "no NUMBA_ variable is set"
+    )
+
+
+def _wrong_setting(name: str, answer: probe.Answer) -> Finding | None:
+    """The finding if a process ended because of one of Numba's variables."""
+    _, found, said = answer.printed.rpartition(f"{machine.SettingError.__name__}: ")
+    if not found or answer.values:
+        return None
+    text, _, cure = said.splitlines()[0].partition(machine.MEND)
+    return Finding(name, False, text, cure)
+
+
+def compiler() -> Finding:
+    """Numba can compile."""
     if _compiler_is_off():
         text = "the compiler is switched off, all is slow: NUMBA_DISABLE_JIT is set"
         return Finding("Numba", False, text, "unset NUMBA_DISABLE_JIT")
-    answer = probe.ask(probe.THREADS)
+    answer = probe.ask(probe.COMPILER)
+    wrong = _wrong_setting("Numba", answer)
+    if wrong:
+        return wrong
     if not answer.values:
         lines = answer.printed.splitlines() or ["it ended without a word"]
         cure = f"{sys.executable} -m pip install --upgrade numba"
         return Finding("Numba", False, f"can't compile: {lines[-1]}", cure)
-    layer, count = answer.values["layer"], answer.values["threads"]
-    return Finding("Numba", True, f"compiles; threading layer {layer}, threads: {count}")
+    threads, cores = answer.values["threads"], answer.values["cores"]
+    more = f" on {counted(cores, 'core')}, more than help" if threads > cores else ""
+    return Finding("Numba", True, f"compiles; threads: {threads}{more}")
 
 
 def _compiler_is_off() -> bool:
-    return os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0")
+    return os.environ.get("NUMBA_DISABLE_JIT", "").strip().lstrip("+-0") != ""
 
 
 def cache() -> Finding:
     """What Numba compiles is kept for later processes."""
+    name = "Numba's cache"
     if _compiler_is_off():
-        return Finding("Numba's cache", True, "not needed while the compiler is off")
+        return Finding(name, True, "not needed while the compiler is off")
+    problem = machine.cache_problem()
+    if problem is not None:
+        return Finding(name, False, *problem)
     answer = probe.ask(probe.CACHE)
-    folder = answer.values.get("folder")
-    if not folder:
-        cure = f"export NUMBA_CACHE_DIR={Path.home() / '.cache' / 'numba'}"
-        text = "no writable folder: each process compiles anew, for ten to thirty seconds"
-        return Finding("Numba's cache", False, text, cure)
-    problem = _unwritable(Path(folder))
-    if problem:
-        cure = f"export NUMBA_CACHE_DIR={Path.home() / '.cache' / 'numba'}"
-        return Finding("Numba's cache", False, f"{folder}: {problem}", cure)
-    return Finding("Numba's cache", True, f"{folder} ({_warmth(**answer.values)})")
+    wrong = _wrong_setting(name, answer)
+    if wrong:
+        return wrong
+    if not answer.values:
+        lines = answer.printed.splitlines() or ["it ended without a word"]
+        return Finding(name, False, f"can't be looked at: {lines[-1]}", "mend what is wrong above")
+    folder = answer.values["folder"]
+    text = "no writable folder: each process compiles anew, for ten to thirty seconds"
+    if folder:
+        text = f"{folder}: {machine.unwritable(Path(folder))}"
+    if not folder or machine.unwritable(Path(folder)):
+        return Finding(name, False, text, f"export {machine.CACHE_DIR}={_own_cache()}")
+    return Finding(name, True, f"{folder} ({_warmth(**answer.values)})")
+
+
+def _own_cache() -> Path:
+    """A folder for the cache, in the home where there is one that can be written."""
+    try:
+        home = Path.home()
+    except RuntimeError:
+        home = Path()
+    if not home.is_absolute() or machine.unwritable(home):
+        return Path("/a/folder/of/yours")
+    return home / ".cache" / "numba"
 
 
 def _warmth(missing: int | None, steps: int, **_: object) -> str:
@@ -190,26 +235,13 @@ def _warmth(missing: int | None, steps: int, **_: object) -> str:
 
 def temporary() -> Finding:
     """Meshes pass through the folder for temporary files."""
-    folder = Path(tempfile.gettempdir())
-    problem = _unwritable(folder)
-    cure = "export TMPDIR=/a/folder/with/room"
-    if problem:
-        return Finding("temporary files", False, f"{folder}: {problem}", cure)
+    name = "temporary files"
+    problem = machine.temporary_problem(ROOM_WANTED)
+    if problem is not None:
+        return Finding(name, False, *problem)
+    folder = tempfile.gettempdir()
     free = shutil.disk_usage(folder).free
-    text = f"{folder}, {free // _MIB} MiB free"
-    if free < ROOM_WANTED:
-        return Finding("temporary files", False, f"{text}: little", cure)
-    return Finding("temporary files", True, text)
+    return Finding(name, True, f"{folder}, {free // machine.MIB} MiB free")
 
 
-def _unwritable(folder: Path) -> str:
-    """Why no file can be written into a folder that may not exist yet; empty if one can."""
-    existing = next((p for p in (folder, *folder.parents) if p.exists()), folder)
-    try:
-        tempfile.TemporaryFile(dir=existing).close()
-    except OSError as error:
-        return os.strerror(error.errno) if error.errno else str(error)
-    return ""
-
-
-ALL = (python, libraries, pymeshlab, filters, threads, cache, temporary)
+ALL = (python, libraries, settings, pymeshlab, filters, compiler, cache, temporary)

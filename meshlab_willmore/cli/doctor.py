@@ -25,8 +25,8 @@ Examples:
 def command(as_json: bool) -> None:
     """Look at what this package needs, and name the command that mends what is missing.
 
-    Libraries, PyMeshLab's plugins and the filters gone with them, Numba's compiler, threading layer
-    and cache folder, room for temporary files. Exit code 0 if all is fit, else 1.
+    Libraries, PyMeshLab's plugins and the filters gone with them, Numba's variables, compiler and
+    cache folder, room for temporary files. Exit code 0 if all is fit, else 1.
     """
     from .checks import ALL
 

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+import warnings
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
 import click
 
+from .. import machine
 from ..markup import plain
 from ..mlx.steps import ScriptError
 from . import stopping, streams
@@ -52,7 +54,7 @@ class OneLineErrors(click.Group):
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command; what click itself says stays, other errors become one line."""
-        with stopping.watched(ctx), _wrong_use_in_one_line():
+        with stopping.watched(ctx), _wrong_use_in_one_line(), _notes_in_one_line():
             return self._invoke(ctx)
 
     def _invoke(self, ctx: click.Context) -> Any:
@@ -65,6 +67,9 @@ class OneLineErrors(click.Group):
                 raise
             if isinstance(error, ScriptError):
                 raise FaultyScript(error) from error
+            fault = machine.fault_of(error)
+            if fault is not None:
+                raise click.ClickException(one_line(fault)) from error
             hint = DOCTOR if isinstance(error, ImportError) else ""
             raise click.ClickException(one_line(error) + hint) from error
 
@@ -81,6 +86,23 @@ def _wrong_use_in_one_line() -> Iterator[None]:
         raise WrongUse(" ".join(error.format_message().split()) + hint) from error
 
 
+@contextmanager
+def _notes_in_one_line() -> Iterator[None]:
+    """Warnings of this package inside are notes."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("always", machine.MachineWarning)
+        show = warnings.showwarning
+
+        def note(message: Warning | str, category: type[Warning], *rest: Any) -> None:
+            if issubclass(category, machine.MachineWarning):
+                click.echo(f"Note: {message}", err=True)
+            else:
+                show(message, category, *rest)
+
+        warnings.showwarning = note  # type: ignore[assignment]
+        yield
+
+
 def one_line(error: BaseException) -> str:
     """What an error says, in one line; its type where it says nothing."""
     return " ".join(str(error).split()) or type(error).__name__
@@ -90,6 +112,20 @@ def reason(error: BaseException) -> str:
     """What an error says, in one line, without what PyMeshLab puts before it and markup."""
     text = plain(_PRELUDE.split(str(error))[-1])
     return " ".join(text.split()) or type(error).__name__
+
+
+def told_of(name: str, error: Exception, say: Callable[[BaseException], str] = one_line) -> str:
+    """What went wrong with an input, in one line with its name; the machine's fault as such."""
+    fault = machine.fault_of(error)
+    if fault is not None:
+        return f"{one_line(fault)} ({name} is left out)"
+    text = say(error)
+    return text if name in text else f"{name}: {text}"
+
+
+def stops_all(error: Exception) -> bool:
+    """Whether other inputs would fail in the same way: something is missing, or set wrong."""
+    return isinstance(machine.fault_of(error) or error, ImportError)
 
 
 def wrong_use(text: str) -> WrongUse:

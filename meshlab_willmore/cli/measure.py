@@ -11,7 +11,7 @@ from typing import Any
 import click
 
 from .columns import in_columns
-from .errors import WrongUse, debug_option, one_line, reason
+from .errors import WrongUse, debug_option, one_line, reason, stops_all, told_of
 from .inputs import check, loaded, matches
 
 EXAMPLES = """\b
@@ -101,10 +101,9 @@ def _measured_or_told(path: Path) -> dict[str, Any]:
     try:
         return _measured(path)
     except Exception as error:
-        if isinstance(error, ImportError) or click.get_current_context().meta.get("debug"):
+        if stops_all(error) or click.get_current_context().meta.get("debug"):
             raise
-        text = reason(error)
-        click.echo(f"Error: {text if str(path) in text else f'{path}: {text}'}", err=True)
+        click.echo(f"Error: {told_of(str(path), error, reason)}", err=True)
         return {}
 
 

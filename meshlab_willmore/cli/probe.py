@@ -1,7 +1,7 @@
 """What `doctor` asks other processes; each runs one of these and prints a line of JSON.
 
-A process of its own, because an import can end in a crash, prints what it likes, and Numba fixes
-its threading layer once.
+A process of its own, because an import can end in a crash, prints what it likes, and Numba reads
+its variables once.
 """
 
 from __future__ import annotations
@@ -29,22 +29,20 @@ answer = {
     "recorded": catalogue.recorded_version(),
 }
 """
-THREADS = """
-import warnings
-warnings.simplefilter("ignore")
-try:
-    import pymeshlab  # brings a TBB of its own, which Numba may find first
-except ImportError:
-    pass
+SETTINGS = """
+from meshlab_willmore import quick_start
+quick_start.import_numba()
+answer = {"wrong": False}
+"""
+COMPILER = """
+import meshlab_willmore
 import numba
-@numba.njit(parallel=True)
-def count(n):
-    total = 0
-    for i in numba.prange(n):
-        total += i
-    return total
-count(2)
-answer = {"layer": numba.threading_layer(), "threads": numba.get_num_threads()}
+@numba.njit
+def double(n):
+    return 2 * n
+double(1)
+from meshlab_willmore.mesh.workers import thread_count
+answer = {"threads": thread_count(), "cores": numba.config.NUMBA_DEFAULT_NUM_THREADS}
 """
 CACHE = """
 from meshlab_willmore import warmup

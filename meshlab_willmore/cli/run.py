@@ -12,7 +12,7 @@ import click
 
 from . import outputs, playing, results, told
 from .columns import counted
-from .errors import debug_option, one_line, wrong_use
+from .errors import debug_option, one_line, stops_all, told_of, wrong_use
 from .flip import FILTER
 from .masks import by_output, is_part, mask_option
 from .scripts import Source, is_script, source_of
@@ -201,17 +201,11 @@ def _succeeds(orders: Orders, job: Job, log: Log, ends_at_once: bool) -> bool:
         # A log that can't be written is no news beside what went wrong before.
         with suppress(OSError):
             log.say(f"error: {one_line(error)}")
-        if ends_at_once or isinstance(error, ImportError):
+        if ends_at_once or stops_all(error):
             raise
-        click.echo(f"Error: {_told(job, error)}", err=True)
+        click.echo(f"Error: {told_of(job.name, error)}", err=True)
         return False
     return True
-
-
-def _told(job: Job, error: Exception) -> str:
-    """What went wrong, with the input's name where the error has not got it."""
-    text = one_line(error)
-    return text if job.name in text else f"{job.name}: {text}"
 
 
 def _run_one(orders: Orders, job: Job, log: Log) -> str:

@@ -30,6 +30,9 @@ def command() -> None:
     be set for later runs too. It takes some minutes the first time, and seconds when all is there.
     'meshlab-willmore doctor' tells whether it is done.
     """
+    from .. import quick_start
+
+    quick_start.import_numba()
     from ..mesh.workers import core_count
     from ..warmup import warm_up
 

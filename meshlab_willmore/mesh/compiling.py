@@ -10,6 +10,9 @@ import sys
 import time
 from typing import NamedTuple
 
+from .. import quick_start
+
+quick_start.import_numba()
 try:
     from numba.core.event import Listener, install_listener, register
 except ImportError:

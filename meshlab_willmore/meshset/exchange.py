@@ -11,7 +11,6 @@ mesh in a set of its own before the user's set is touched, and then the whole.
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path, PurePosixPath
@@ -20,6 +19,7 @@ from typing import Any
 import numpy as np
 import pymeshlab
 
+from ..machine import temporary_folder
 from . import layers, native, ply
 from .sides import carry_side_bits
 from .snapshot import (
@@ -41,6 +41,7 @@ _READABLE = {"radius": np.dtype("<f4")}
 
 # Qt's quality of a PNG is how little it is compressed.
 _FASTEST = 100
+_BYTES_OF_PIXEL = 3
 
 
 def give(ms: pymeshlab.MeshSet, old: Snapshot, new: Snapshot) -> None:
@@ -58,9 +59,11 @@ def give(ms: pymeshlab.MeshSet, old: Snapshot, new: Snapshot) -> None:
     ------
     pymeshlab.PyMeshLabException
         If PyMeshLab would drop something that `new.unsupported` does not name.
+    RoomError
+        If the folder for temporary files has no room for the mesh and its textures.
     """
-    with tempfile.TemporaryDirectory(prefix="meshlab_willmore_") as name:
-        path = _mesh_path(Path(name), new.ply.textures)
+    with temporary_folder(_size(new)) as folder:
+        path = _mesh_path(folder, new.ply.textures)
         part_path = path.with_name(_PART_FILE)
         part = _part(new)
         _write_images(path.parent, new)
@@ -74,6 +77,14 @@ def give(ms: pymeshlab.MeshSet, old: Snapshot, new: Snapshot) -> None:
                 lambda target: _reload(target, path, old),
                 old.identity,
             )
+
+
+def _size(snapshot: Snapshot) -> int:
+    """How many bytes the files have, about; an image is hardly compressed."""
+    mesh = snapshot.ply
+    records = mesh.vertices.nbytes + snapshot.normals.nbytes + mesh.faces.nbytes + mesh.edges.nbytes
+    images = snapshot.images.values()
+    return records + sum(_BYTES_OF_PIXEL * i.width() * i.height() for i in images)
 
 
 def with_faces(old: Snapshot, faces: np.ndarray, corners: np.ndarray) -> Snapshot:

@@ -12,7 +12,6 @@ import functools
 import inspect
 import os
 import sys
-import tempfile
 import weakref
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -22,6 +21,8 @@ from typing import Any, Generic, NamedTuple, TypeVar
 import numpy as np
 import pymeshlab
 from pymeshlab import MeshSet
+
+from ..machine import temporary_folder
 
 # PyMeshLab's own, not what `register` (of a module that was imported before) replaced them with.
 _add_mesh = inspect.unwrap(MeshSet.add_mesh)
@@ -143,8 +144,8 @@ def without_trace(ms: MeshSet) -> Iterator[None]:
 
 def script_of(ms: MeshSet) -> bytes:
     """The filter script of `ms` as XML; characters that can't be read are replaced."""
-    with tempfile.TemporaryDirectory(prefix="meshlab_willmore_") as folder:
-        written = _script(ms, Path(folder) / "script.mlx")
+    with temporary_folder() as folder:
+        written = _script(ms, folder / "script.mlx")
     # PyMeshLab writes in the encoding of the system, which is not always the UTF-8 of XML.
     return written.decode("utf-8", errors="replace").encode("utf-8")
 
@@ -152,8 +153,8 @@ def script_of(ms: MeshSet) -> bytes:
 @contextmanager
 def unrecorded(ms: MeshSet) -> Iterator[None]:
     """Native filters inside don't stay in the filter script of `ms`."""
-    with tempfile.TemporaryDirectory(prefix="meshlab_willmore_") as folder:
-        path = Path(folder) / "script.mlx"
+    with temporary_folder() as folder:
+        path = folder / "script.mlx"
         before = _script(ms, path)
         try:
             yield

@@ -9,7 +9,6 @@ names.
 from __future__ import annotations
 
 import re
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -18,12 +17,16 @@ from typing import NamedTuple
 import numpy as np
 import pymeshlab
 
+from ..machine import temporary_folder
 from . import layers, native, ply
 
 MESH_FILE = "mesh.ply"
 
 # The bit of a selected element, the same in the flags of vertices and faces.
 _SELECTED = 0x20
+
+_BYTES_OF_VERTEX = 28
+_BYTES_OF_FACE = 17
 
 
 class Attribute(NamedTuple):
@@ -114,10 +117,15 @@ def take(ms: pymeshlab.MeshSet) -> Snapshot:
 @contextmanager
 def _copied(mesh: pymeshlab.Mesh) -> Iterator[tuple[pymeshlab.MeshSet, Path]]:
     """A copy of `mesh` in a set of its own, and a folder; saving renames the file of a mesh."""
-    with tempfile.TemporaryDirectory(prefix="meshlab_willmore_") as folder:
+    with temporary_folder(_least_size(mesh)) as folder:
         copy = pymeshlab.MeshSet()
         copy.add_mesh(mesh, "copy")
-        yield copy, Path(folder)
+        yield copy, folder
+
+
+def _least_size(mesh: pymeshlab.Mesh) -> int:
+    """How many bytes the PLY has at least: coordinates and flags, corners and flags."""
+    return _BYTES_OF_VERTEX * mesh.vertex_number() + _BYTES_OF_FACE * mesh.face_number()
 
 
 def _save_flags(mesh: pymeshlab.Mesh) -> dict[str, bool]:

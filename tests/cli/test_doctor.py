@@ -1,12 +1,15 @@
 """`doctor`: what is found on a machine, and the command that mends it."""
 
 import json
+import os
 import shutil
 import sys
 import tempfile
+from pathlib import Path
 
 import pytest
 
+from meshlab_willmore import machine
 from meshlab_willmore.cli import checks, probe
 from meshlab_willmore.cli.checks import Finding
 from meshlab_willmore.meshset import catalogue
@@ -62,7 +65,7 @@ def test_this_machine_is_fit():
     assert report["fit"] is True
     assert len(report["findings"]) == len(checks.ALL)
     numba = next(f for f in report["findings"] if f["name"] == "Numba")
-    assert "threading layer " in numba["text"]
+    assert numba["text"].startswith("compiles; threads: ")
 
 
 # PyMeshLab
@@ -137,15 +140,49 @@ def test_another_failure_of_the_import(monkeypatch):
 def test_numba_that_cannot_compile(monkeypatch):
     monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
     answering(monkeypatch, {}, "OSError: no LLVM")
-    finding = checks.threads()
+    finding = checks.compiler()
     assert (finding.ok, finding.text) == (False, "can't compile: OSError: no LLVM")
     assert finding.cure.endswith("-m pip install --upgrade numba")
 
 
-def test_a_compiler_that_is_switched_off(monkeypatch):
-    monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")
-    assert checks.threads().cure == "unset NUMBA_DISABLE_JIT"
+def test_more_threads_than_cores_are_told_of(monkeypatch):
+    monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
+    answering(monkeypatch, {"threads": 2, "cores": 2})
+    assert checks.compiler() == Finding("Numba", True, "compiles; threads: 2")
+    answering(monkeypatch, {"threads": 99, "cores": 2})
+    text = "compiles; threads: 99 on 2 cores, more than help"
+    assert checks.compiler() == Finding("Numba", True, text)
+
+
+@pytest.mark.parametrize("value", ["1", "2", "01"])
+def test_a_compiler_that_is_switched_off(monkeypatch, value):
+    monkeypatch.setenv("NUMBA_DISABLE_JIT", value)
+    assert checks.compiler().cure == "unset NUMBA_DISABLE_JIT"
     assert checks.cache().ok
+
+
+def test_a_wrong_variable_is_the_same_fault_for_all_that_need_numba(monkeypatch):
+    monkeypatch.setenv("NUMBA_NUM_THREADS", "x")
+    monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
+    problem = (
+        "the variable NUMBA_NUM_THREADS is 'x', but has to be a whole number of threads, 1 or more",
+        "unset NUMBA_NUM_THREADS",
+    )
+    for check in (checks.settings, checks.compiler):
+        assert check()[1:] == (False, *problem)
+    answering(monkeypatch, {}, f"Traceback\nSettingError: {machine.Problem(*problem)}")
+    for check in (checks.filters, checks.cache):
+        assert check()[1:] == (False, *problem)
+
+
+def test_variables_that_can_be_are_listed(monkeypatch):
+    for name in [name for name in os.environ if name.startswith("NUMBA_")]:
+        monkeypatch.delenv(name)
+    answering(monkeypatch, {"wrong": False})
+    assert checks.settings() == Finding("variables", True, "no NUMBA_ variable is set")
+    monkeypatch.setenv("NUMBA_OPT", "3")
+    monkeypatch.setenv("NUMBA_NUM_THREADS", "2")
+    assert checks.settings().text == "NUMBA_NUM_THREADS=2, NUMBA_OPT=3"
 
 
 def test_no_folder_for_the_cache(monkeypatch):
@@ -154,6 +191,42 @@ def test_no_folder_for_the_cache(monkeypatch):
     finding = checks.cache()
     assert not finding.ok
     assert finding.cure.startswith("export NUMBA_CACHE_DIR=")
+
+
+def test_a_cache_that_cannot_be_asked_for_is_no_missing_folder(monkeypatch):
+    monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
+    answering(monkeypatch, {}, "Traceback\nImportError: no LLVM")
+    finding = checks.cache()
+    assert (finding.ok, finding.text) == (False, "can't be looked at: ImportError: no LLVM")
+
+
+def test_a_folder_of_the_users_that_is_of_no_use_for_the_cache(monkeypatch, tmp_path):
+    monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
+    file = tmp_path / "file"
+    file.touch()
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(file))
+    assert checks.cache() == Finding(
+        "Numba's cache",
+        False,
+        f"the folder of NUMBA_CACHE_DIR, {file}, can't be written: it is a file",
+        "unset NUMBA_CACHE_DIR",
+    )
+
+
+@pytest.mark.parametrize("home", ["file", "relative", None])
+def test_a_home_that_nobody_can_write_is_no_cure(monkeypatch, tmp_path, home):
+    monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
+    (tmp_path / "file").touch()
+    homes = {"file": tmp_path / "file", "relative": Path("nowhere")}
+
+    def find():
+        if home is None:
+            raise RuntimeError("Could not determine home directory.")
+        return homes[home]
+
+    monkeypatch.setattr(Path, "home", find)
+    answering(monkeypatch, {"folder": None, "steps": 9, "missing": None})
+    assert checks.cache().cure == "export NUMBA_CACHE_DIR=/a/folder/of/yours"
 
 
 def test_a_cache_folder_tells_what_is_compiled(monkeypatch, tmp_path):
@@ -194,15 +267,37 @@ def test_a_package_that_is_not_installed(monkeypatch):
 
 def test_little_room_for_temporary_files(monkeypatch, tmp_path):
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    monkeypatch.delenv("TMPDIR", raising=False)
     usage = shutil.disk_usage(tmp_path)
     monkeypatch.setattr(shutil, "disk_usage", lambda _: usage._replace(free=50 * 2**20))
-    assert checks.temporary().text == f"{tmp_path}, 50 MiB free: little"
+    finding = checks.temporary()
+    assert finding == Finding(
+        "temporary files",
+        False,
+        f"the folder for temporary files, {tmp_path}, has only 50.0 MiB free",
+        "export TMPDIR=/a/folder/with/room",
+    )
     monkeypatch.setattr(shutil, "disk_usage", lambda _: usage._replace(free=500 * 2**20))
     assert checks.temporary() == Finding("temporary files", True, f"{tmp_path}, 500 MiB free")
+    monkeypatch.setenv("TMPDIR", str(tmp_path / "gone"))
+    assert checks.temporary().text == (
+        f"TMPDIR names {tmp_path / 'gone'}, where no file can be written: there is no such folder; "
+        f"{tmp_path} is used"
+    )
     file = tmp_path / "file"
     file.touch()
     monkeypatch.setattr(tempfile, "tempdir", str(file))
-    assert checks.temporary().text == f"{file}: Not a directory"
+    assert checks.temporary().text == f"no temporary file can be written into {file}: it is a file"
+
+
+def test_no_folder_for_temporary_files(monkeypatch):
+    def fail():
+        raise FileNotFoundError(2, "No usable temporary directory found in ['/tmp', '/']")
+
+    monkeypatch.setattr(tempfile, "gettempdir", fail)
+    finding = checks.temporary()
+    assert finding.text.startswith("no folder for temporary files: No usable")
+    assert finding.cure.startswith("export TMPDIR=")
 
 
 # Asking

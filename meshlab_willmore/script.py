@@ -15,16 +15,18 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Collection, Iterable
+from pathlib import Path
 
 import pymeshlab
 
 from .meshset import layers, numbering
-from .meshset.check import Call, resolve
+from .meshset.check import Call, Findings, examine
 from .meshset.modern import modernised
 from .meshset.play import Played, play
 from .mlx import write as _writing
-from .mlx.read import read
-from .mlx.steps import Fault, Param, Percentage, ScriptError, Step
+from .mlx.read import read, reading_of
+from .mlx.source import bytes_of
+from .mlx.steps import Fault, Param, Percentage, Reading, ScriptError, ScriptWarning, Step
 
 __all__ = [
     "Call",
@@ -33,11 +35,14 @@ __all__ = [
     "Percentage",
     "Played",
     "ScriptError",
+    "ScriptWarning",
     "Step",
     "calls",
     "check",
+    "examined",
     "read",
     "run",
+    "warnings",
     "write",
 ]
 
@@ -61,12 +66,29 @@ def check(script: Script, mesh_ids: Collection[int] | None = None) -> list[Fault
     list of Fault
         Empty if the script can run.
     """
-    try:
-        calls(script, mesh_ids)
-    except ScriptError as error:
-        source = "" if error.source == _UNNAMED else error.source
-        return [fault._replace(source=source) for fault in error.faults]
-    return []
+    source = str(script) if isinstance(script, (str, os.PathLike)) else ""
+    return [fault._replace(source=source) for fault in examined(script, mesh_ids).faults]
+
+
+def warnings(script: Script) -> list[ScriptWarning]:
+    """Find what one should know of a script that can run.
+
+    Old names and what they are today, parameters that have gone or have no type, defaults that
+    have changed since the script was written.
+
+    Parameters
+    ----------
+    script : path or iterable of Step
+        A file, or the steps themselves.
+
+    Returns
+    -------
+    list of ScriptWarning
+        In the order of the steps. Where `changes_result` is true, the step does something else than
+        it did in the MeshLab that the script was written for.
+    """
+    source = str(script) if isinstance(script, (str, os.PathLike)) else ""
+    return [warning._replace(source=source) for warning in examined(script).warnings]
 
 
 def calls(script: Script, mesh_ids: Collection[int] | None = None) -> tuple[Call, ...]:
@@ -77,8 +99,7 @@ def calls(script: Script, mesh_ids: Collection[int] | None = None) -> tuple[Call
     ScriptError
         With all faults of the script.
     """
-    steps, source = _open(script)
-    return resolve(steps, source, mesh_ids)
+    return _without_fault(examined(script, mesh_ids), script)
 
 
 def run(
@@ -113,9 +134,9 @@ def run(
         If a step fails; it is named, and the steps before it have had their effect.
     """
     ms = pymeshlab.MeshSet() if ms is None else ms
-    steps, source = _open(script)
     there = [numbering.logical_id(ms, i) for i in layers.visible_ids(ms)]
-    return play(ms, resolve(steps, source, there), source, before, after)
+    checked = _without_fault(examined(script, there), script)
+    return play(ms, checked, _name_of(script), before, after)
 
 
 def write(path: str | os.PathLike[str], steps: Iterable[Step]) -> None:
@@ -140,8 +161,36 @@ def write(path: str | os.PathLike[str], steps: Iterable[Step]) -> None:
     _writing.write(path, modernised(steps))
 
 
-def _open(script: Script) -> tuple[tuple[Step, ...], str]:
-    """The steps of a script, and what to call it."""
-    if isinstance(script, (str, os.PathLike)):
-        return read(script), str(script)
-    return tuple(script), _UNNAMED
+def examined(script: Script, mesh_ids: Collection[int] | None = None) -> Findings:
+    """All that a check finds in a script: calls, faults, warnings, and the steps themselves."""
+    if not isinstance(script, (str, os.PathLike)):
+        return examine(Reading(tuple(script)), mesh_ids)
+    try:
+        data = bytes_of(Path(script))
+    except ScriptError as error:
+        return _unreadable(error)
+    return examined_text(data, str(script), mesh_ids)
+
+
+def examined_text(data: bytes, source: str, mesh_ids: Collection[int] | None = None) -> Findings:
+    """All that a check finds in the text of a script, which messages call `source`."""
+    try:
+        reading = reading_of(data, source)
+    except ScriptError as error:
+        return _unreadable(error)
+    return examine(reading, mesh_ids)
+
+
+def _unreadable(error: ScriptError) -> Findings:
+    return Findings((), error.faults, (), Reading((), error.faults))
+
+
+def _name_of(script: Script) -> str:
+    """What errors call a script."""
+    return str(script) if isinstance(script, (str, os.PathLike)) else _UNNAMED
+
+
+def _without_fault(found: Findings, script: Script) -> tuple[Call, ...]:
+    if found.faults:
+        raise ScriptError(_name_of(script), found.faults)
+    return found.calls

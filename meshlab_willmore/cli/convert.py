@@ -23,8 +23,6 @@ Examples:
   meshlab-willmore convert old.mlx - | meshlab-willmore run - -i a.ply -o b.ply
 """
 
-_COMMENT = b"<!--"
-
 
 @click.command("convert", short_help="Rewrite a script in today's form.", epilog=EXAMPLES)
 @click.argument("source", metavar="SCRIPT")
@@ -38,20 +36,24 @@ def command(source: str, target: Path, meshlab: bool, force: bool) -> None:
     """Rewrite a filter script with today's names of filters, parameters and types.
 
     Old forms, from the time of meshlabserver, and PyMeshLab's names become what MeshLab writes
-    today. A script with faults is not converted. For SCRIPT and OUT, - is the standard input and
-    output; pipes will do as well.
+    today. What does not do the same as before is said. A script with faults is not converted. For
+    SCRIPT and OUT, - is the standard input and output; pipes will do as well.
     """
-    from ..meshset.check import resolve
+    from ..meshset.document import is_step
     from ..meshset.modern import in_todays_form
+    from ..mlx.steps import ScriptError
     from ..mlx.write import to_xml
 
     is_output = str(target) == STANDARD_STREAM
     if not is_output:
         check_place(target, force, "today.mlx", takes_streams=True)
     script = source_of(source)
-    steps = script.steps()
-    checked = resolve(steps, script.name, None)
-    kept = [call for call in checked if not (meshlab and call.known.ours)]
+    found = script.examined()
+    if found.faults:
+        raise ScriptError(script.name, found.faults)
+    steps, checked = found.reading.steps, found.calls
+    unknown = [call for call in checked if call.known.ours or is_step(call.known.name)]
+    kept = [call for call in checked if not (meshlab and call in unknown)]
     data = to_xml(in_todays_form(call, steps[call.number - 1]) for call in kept).encode()
     if is_output:
         click.echo(data, nl=False)
@@ -62,14 +64,17 @@ def command(source: str, target: Path, meshlab: bool, force: bool) -> None:
     click.echo(f"{script.name} -> {target}: {len(kept)} of {len(checked)} steps", err=beside)
     if not kept:
         click.echo(f"nothing is left: {target} has no steps", err=beside)
-    if _COMMENT in script.data:
+    if found.reading.has_comments:
         click.echo("left out: the comments", err=beside)
+    for warning in found.warnings:
+        if warning.changes_result:
+            click.echo(f"not as before: {warning}", err=beside)
     for line in _changes(checked, kept, meshlab):
         click.echo(line, err=beside)
 
 
 def _changes(checked: Sequence[Call], kept: Sequence[Call], meshlab: bool) -> Iterator[str]:
-    """What is not as it was, in a line each."""
+    """What is left out, and what depends on the mesh, in a line each."""
     for call in checked:
         if call not in kept:
             yield f"left out: step {call.number}, {call.known.meshlab_name}"

@@ -13,7 +13,7 @@ from .inputs import matches, refuse_folder
 from .scripts import STANDARD_STREAM, source_of
 
 if TYPE_CHECKING:
-    from ..mlx.steps import Step
+    from ..meshset.check import Findings
 
 EXAMPLES = """\b
 Examples:
@@ -26,26 +26,23 @@ Examples:
 @click.argument("scripts", metavar="SCRIPT...", nargs=-1, required=True)
 @debug_option
 def command(scripts: tuple[str, ...]) -> None:
-    """Check filter scripts without running them: a line for each fault.
+    """Check filter scripts without running them: a line for each fault, and for each warning.
 
-    Unknown filters and parameters, values that can't be, and all that MeshLab would skip without a
-    word. Exit code 1 if a script has faults. Scripts can come from pipes; - is the standard input.
+    Faults are unknown filters and parameters, values that can't be, and all that MeshLab would
+    skip without a word; all of a script are told at once. Warnings are names of older versions
+    with what they are today, parameters without a type, and defaults that have changed. Exit code
+    1 if a script has faults. Scripts can come from pipes; - is the standard input.
     """
-    from ..mlx.steps import ScriptError
-    from ..script import check
-
     faulty = 0
     for path in _expanded(scripts):
-        try:
-            steps = _steps(path)
-            faults = check(steps)
-        except ScriptError as error:
-            steps, faults = (), list(error.faults)
-        for fault in faults:
+        found = _examined(path)
+        for fault in found.faults:
             click.echo(f"{path}: {fault}")
-        if not faults:
-            click.echo(f"{path}: fine, {counted(len(steps), 'step')}")
-        faulty += bool(faults)
+        for warning in found.warnings:
+            click.echo(f"{path}: warning: {warning}")
+        if not found.faults:
+            click.echo(f"{path}: fine, {counted(len(found.calls), 'step')}")
+        faulty += bool(found.faults)
     if faulty:
         click.get_current_context().exit(1)
 
@@ -57,7 +54,7 @@ def _expanded(names: tuple[str, ...]) -> list[Path]:
     return paths
 
 
-def _steps(path: Path) -> tuple[Step, ...]:
-    from ..script import read
+def _examined(path: Path) -> Findings:
+    from ..script import examined
 
-    return source_of(STANDARD_STREAM).steps() if str(path) == STANDARD_STREAM else read(path)
+    return source_of(STANDARD_STREAM).examined() if str(path) == STANDARD_STREAM else examined(path)

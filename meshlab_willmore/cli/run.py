@@ -123,8 +123,8 @@ def command(script: str | None, also: str | None, **given: Any) -> None:
     """Run a MeshLab filter script (.mlx) on meshes, and save what comes out.
 
     The whole script is checked before its first step; it can come from a pipe, and - is the
-    standard input. An output is there when it is whole, not before. Several inputs are run one after the other; if one fails, the others go on, and the
-    exit code is 1 in the end.
+    standard input. An output is there when it is whole, not before. Several inputs are run one
+    after the other; if one fails, the others go on, and the exit code is 1 in the end.
 
     With --layers the first input is the current layer, as in meshlabserver. One -o saves the mesh
     that is current in the end; several save the first layers, in their order. Each -m is for
@@ -169,15 +169,20 @@ def _script_of(script: str | None, also: str | None) -> Source:
 
 def _steps(source: Source, settings: Sequence[str]) -> tuple[Step, ...]:
     """The script, changed and checked as far as that is possible without meshes."""
-    from ..meshset.check import faults_of
     from ..mlx.steps import ScriptError
+    from ..script import examined
     from .settings import with_settings
 
-    steps = with_settings(source.steps(), settings)
-    faults = faults_of(steps)
-    if faults:
-        raise ScriptError(source.name, faults)
-    return steps
+    found = source.examined()
+    if not found.reading.faults:
+        steps = with_settings(found.reading.steps, settings)
+        found = examined(steps) if settings else found
+    if found.faults:
+        raise ScriptError(source.name, found.faults)
+    for warning in found.warnings:
+        if warning.changes_result:
+            click.echo(f"{source.name}: warning: {warning}", err=True)
+    return found.reading.steps
 
 
 def _has_flips(steps: Iterable[Step]) -> bool:

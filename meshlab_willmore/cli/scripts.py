@@ -12,7 +12,7 @@ from .errors import wrong_use
 from .inputs import refuse_folder
 
 if TYPE_CHECKING:
-    from ..mlx.steps import Step
+    from ..meshset.check import Findings
 
 STANDARD_STREAM = "-"
 _ENDING = ".mlx"
@@ -33,17 +33,11 @@ class Source(NamedTuple):
     name: str
     data: bytes
 
-    def steps(self) -> tuple[Step, ...]:
-        """The steps.
+    def examined(self) -> Findings:
+        """All that a check finds in it."""
+        from ..script import examined_text
 
-        Raises
-        ------
-        ScriptError
-            With all faults of the text.
-        """
-        from ..mlx.read import read_bytes
-
-        return read_bytes(self.data, self.name)
+        return examined_text(self.data, self.name)
 
 
 def is_script(word: str) -> bool:

@@ -84,18 +84,37 @@ def _changed(step: Step, setting: Setting) -> Step:
     if known is None:
         # The check of the script names it and the closest ones.
         return step
-    param = known.param(setting.param)
+    param = known.param(setting.param) or _renamed(known, setting.param)
     if param is None:
         raise wrong_use(f"--set {setting.written}: {_no_such_parameter(known, setting.param)}")
     new = Param(param.name, param.type, _value(param, setting))
     kept: list[Param] = []
     replaced = False
     for old in step.params:
-        same = known.param(old.name)
-        is_same = same is not None and same.name == param.name
-        kept.append(new._replace(details=old.details) if is_same else old)
-        replaced |= is_same
+        if param not in _meant(known, old.name):
+            kept.append(old)
+        elif not replaced:
+            is_renamed = known.param(old.name) is None
+            kept.append(new if is_renamed else new._replace(details=old.details))
+            replaced = True
     return step._replace(params=(*kept,) if replaced else (*kept, new))
+
+
+def _meant(known: Known, name: str) -> list[KnownParam | None]:
+    """The parameters that a name in a script stands for, of today or before."""
+    from ..meshset.old_names import params_of
+
+    own = known.param(name)
+    return [own] if own else [known.param(old.param or "") for old in params_of(known.name, name)]
+
+
+def _renamed(known: Known, name: str) -> KnownParam | None:
+    """The parameter that had this name before, with the same values."""
+    from ..meshset.old_names import params_of
+
+    olds = params_of(known.name, name)
+    is_plain = len(olds) == 1 and not olds[0].change
+    return known.param(olds[0].param or "") if is_plain else None
 
 
 def _no_such_parameter(known: Known, name: str) -> str:

@@ -10,7 +10,6 @@ from __future__ import annotations
 import difflib
 import functools
 import json
-import keyword
 import re
 from collections.abc import Iterable
 from importlib import metadata
@@ -19,9 +18,11 @@ from typing import Any, NamedTuple
 
 import pymeshlab
 
-from . import probe
+from . import document, old_names, probe
+from .document import DocumentStep
 from .filter import Filter
 from .filters import BY_NAME, FILTERS
+from .keywords import keyword_of
 from .probe import KnownParam
 
 _FILE = Path(__file__).with_name("native_filters.json")
@@ -30,17 +31,6 @@ _MANUAL = "https://pymeshlab.readthedocs.io/en/{version}/filter_list.html#{name}
 _TYPES = {bool: "RichBool", int: "RichInt", float: "RichFloat", str: "RichString"}
 # All filters of this name, and few others, work on an empty set.
 _MAKES_MESHES = "create_"
-# MeshLab's names of before 2016.12, which PyMeshLab's own table of old names does not reach.
-_OLD_NAMES = {
-    "Quadric Edge Collapse Decimation": "meshing_decimation_quadric_edge_collapse",
-    "Quadric Edge Collapse Decimation (with texture)": (
-        "meshing_decimation_quadric_edge_collapse_with_texture"
-    ),
-    "Re-Orient all faces coherentely": "meshing_re_orient_faces_coherently",
-    "Remove Duplicated Vertex": "meshing_remove_duplicate_vertices",
-    "Remove Isolated pieces (wrt Face Num)": "meshing_remove_connected_component_by_face_number",
-    "Remove Unreferenced Vertex": "meshing_remove_unreferenced_vertices",
-}
 _MOST_SUGGESTIONS = 3
 _LEAST_LIKENESS = 0.55
 _LONGEST_NAME = 200
@@ -89,9 +79,11 @@ class Known(NamedTuple):
 def find(name: str) -> Known | None:
     """The filter of that name, of today or before, in MeshLab or PyMeshLab.
 
-    Upper and lower case differ, as they do in MeshLab. A filter that the PyMeshLab at hand has not
-    got, but others have, is found too; it is not `available`.
+    Upper and lower case differ, as they do in MeshLab; blanks at the ends and doubled ones don't. A
+    filter that the PyMeshLab at hand has not got, but others have, is found too; it is not
+    `available`. Steps of old scripts that are no filters of a mesh are found as well.
     """
+    name = old_names.plain(name)
     if name in BY_NAME:
         return _ours(BY_NAME[name])
     ours = next((f for f in FILTERS if f.meshlab_name == name), None)
@@ -99,8 +91,17 @@ def find(name: str) -> Known | None:
         return _ours(ours)
     if name in _recorded():
         return _native(name)
-    today = _by_meshlab_name().get(name) or _OLD_NAMES.get(name) or _new_name(name)
-    return _native(today) if today else None
+    today = _by_meshlab_name().get(name) or _before(name) or _new_name(name)
+    if today:
+        return _native(today)
+    step = document.find(name)
+    return _of_document(step) if step else None
+
+
+def _before(name: str) -> str | None:
+    """PyMeshLab's name of a filter that was called `name` in older versions."""
+    old = old_names.filter_of(name)
+    return old.targets[0].filter if old else None
 
 
 def closest(name: str) -> list[str]:
@@ -134,12 +135,6 @@ def everything() -> tuple[Known, ...]:
 def missing() -> tuple[Known, ...]:
     """The filters that PyMeshLab had when they were recorded, and the one at hand has not."""
     return tuple(_native(name) for name in sorted(_recorded().keys() - _there()))
-
-
-def keyword_of(name: str) -> str:
-    """PyMeshLab's name for something that MeshLab calls `name`."""
-    made = re.sub(r"[().,'\":+]", "", re.sub(r"[ /-]", "_", name.lower()))
-    return made + "_" if keyword.iskeyword(made) else made
 
 
 def version() -> str:
@@ -183,7 +178,7 @@ def _there_with(_plugins: int) -> frozenset[str]:
 
 @functools.cache
 def _by_meshlab_name() -> dict[str, str]:
-    return {entry["name"]: name for name, entry in _recorded().items()}
+    return {old_names.plain(entry["name"]): name for name, entry in _recorded().items()}
 
 
 @functools.cache
@@ -237,6 +232,11 @@ def _read(name: str, there: bool) -> Known:
 def _param(entry: dict[str, Any], name: str, kind: str, choices: Iterable[str] = ()) -> KnownParam:
     made = keyword_of(name)
     return KnownParam(name, made, kind, tuple(choices), made in entry["required"])
+
+
+@functools.cache
+def _of_document(step: DocumentStep) -> Known:
+    return Known(step.name, step.meshlab_names[0], step.params, False, False, step.summary)
 
 
 # --- ours --------------------------------------------------------------------------------------

@@ -10,16 +10,18 @@ from collections.abc import Collection, Iterable, Iterator
 from typing import Any, NamedTuple
 
 from ..mlx.elements import MOST_FAULTS
-from ..mlx.steps import Fault, Param, ScriptError, Step, Value
+from ..mlx.steps import Fault, Gap, Reading, ScriptError, ScriptWarning, Step, Value
 from ..mlx.words import quoted, shortened
-from . import catalogue
+from . import catalogue, document, old_names
 from .catalogue import Known
 from .filters import BY_NAME
 from .probe import KnownParam
-from .values import value_of
+from .todays import Given, Remark, Todays
+from .values import mismatch, value_of
 
 # A longer list of parameters would not help.
 _MOST_LISTED = 12
+_NO_GAP = Gap()
 
 
 class Call(NamedTuple):
@@ -33,11 +35,26 @@ class Call(NamedTuple):
         The filter.
     given : dict
         The parameters that the step gives, by PyMeshLab's keyword; an enum's value is its index.
+    details : dict
+        What else the script says of each: description, range and the like.
     """
 
     number: int
     known: Known
     given: dict[str, Value]
+    details: dict[str, tuple[tuple[str, str], ...]] = {}  # noqa: RUF012 - nobody changes it
+
+
+class Findings(NamedTuple):
+    """What a check found: calls of the steps that can be run, faults, and warnings.
+
+    With them comes what was checked.
+    """
+
+    calls: tuple[Call, ...]
+    faults: tuple[Fault, ...]
+    warnings: tuple[ScriptWarning, ...]
+    reading: Reading
 
 
 def resolve(
@@ -64,23 +81,50 @@ def resolve(
     ScriptError
         With all faults.
     """
-    checker = _Checker(mesh_ids)
-    calls = []
-    with contextlib.suppress(_EnoughError):
-        for number, step in enumerate(steps, start=1):
-            calls += checker.calls(number, step)
-    if checker.faults:
-        raise ScriptError(source, checker.faults)
-    return tuple(calls)
+    found = examine(Reading(tuple(steps)), mesh_ids)
+    if found.faults:
+        raise ScriptError(source, found.faults)
+    return found.calls
 
 
 def faults_of(steps: Iterable[Step], mesh_ids: Collection[int] | None = None) -> list[Fault]:
     """All that is wrong with steps; empty if they can be run. Parameters are those of `resolve`."""
-    try:
-        resolve(steps, "", mesh_ids)
-    except ScriptError as error:
-        return list(error.faults)
-    return []
+    return list(examine(Reading(tuple(steps)), mesh_ids).faults)
+
+
+def examine(reading: Reading, mesh_ids: Collection[int] | None = None) -> Findings:
+    """Check what was read of a script, and put its faults with those of the reading.
+
+    What follows from a fault of the reading is no fault of its own.
+    """
+    checker = _Checker(mesh_ids)
+    calls: list[Call] = []
+    with contextlib.suppress(_EnoughError):
+        for number, step in enumerate(reading.steps, start=1):
+            calls += checker.calls(number, step, reading.gaps.get(number, _NO_GAP))
+        checker.warn_of_defaults()
+    faults = _merged(reading.faults, checker.faults)
+    return Findings(tuple(calls), faults, tuple(checker.warnings), reading)
+
+
+def _merged(read: Iterable[Fault], checked: Iterable[Fault]) -> tuple[Fault, ...]:
+    """Faults by the number of the step; of each step, those of the reading come first."""
+    faults = sorted([*read, *checked], key=lambda fault: fault.step)
+    faults = [fault for fault in faults if fault != _MORE]
+    return (*faults[:MOST_FAULTS], _MORE) if len(faults) > MOST_FAULTS else tuple(faults)
+
+
+_MORE = Fault(f"has more than {MOST_FAULTS} faults; these are the first")
+
+
+def is_todays(step: Step) -> bool:
+    """Whether PyMeshLab itself knows the filter and the parameters of a step by these names."""
+    known = catalogue.find(step.filter)
+    if known is None or step.filter != known.meshlab_name or document.is_step(known.name):
+        return False
+    names = {own.name for own in known.params}
+    has_names = all(param.type and param.name in names for param in step.params)
+    return has_names and not Todays(step, known, {}, "").remarks
 
 
 class _EnoughError(Exception):
@@ -92,57 +136,136 @@ class _Checker:
 
     def __init__(self, mesh_ids: Collection[int] | None) -> None:
         self.faults: list[Fault] = []
+        self.warnings: list[ScriptWarning] = []
         self._ids = mesh_ids
-        # How many meshes are left , as long as none can have been added.
+        # How many meshes are left, as long as none can have been added.
         self._left = len(mesh_ids) if mesh_ids is not None else 0
         self._may_be_more = False
+        # At most how new the script is, by the old names in it; see `old_names.age`.
+        self._age: int | None = None
+        self._checked: list[tuple[int, Step, Call]] = []
 
-    def calls(self, number: int, step: Step) -> list[Call]:
+    def calls(self, number: int, step: Step, gap: Gap) -> list[Call]:
         """The call of one step; none if there is no such filter."""
-        known = catalogue.find(step.filter)
+        if gap.follows_unread:
+            self._may_be_more = True
+        old = old_names.filter_of(step.filter)
+        target = old.target(step) if old else None
+        known = catalogue.find(target.filter if target else step.filter)
         if known is None or not known.available:
-            problem = _absent(step.filter) if known is None else _unavailable(known)
-            self._add(number, step, problem)
+            if not gap.is_nameless:
+                problem = _absent(step.filter) if known is None else _unavailable(known)
+                self._add(number, step, problem)
             self._may_be_more = True
             return []
         if known.needs_mesh and self._is_empty():
             self._add(number, step, _NO_MESH)
             self._may_be_more = True
-        given = dict(self._values(number, step, known))
+        self._warn_of_name(number, step, known)
+        todays = Todays(step, known, target.given if target else {}, old.by if old else "")
+        self._make_older(todays.age)
+        for remark in todays.problems:
+            self._add(number, step, remark.text, remark.shown)
+        for remark in todays.remarks:
+            self._warn(number, step, remark)
+        call = Call(number, known, {}, {})
+        for item, own in self._params(number, step, known, todays, gap):
+            self._take(call, step, item, own)
         self._may_be_more = self._may_be_more or known.makes_layers
         self._left -= known.name == _DELETE
-        return [Call(number, known, given)]
+        self._checked.append((number, step, call))
+        return [call]
 
-    def _values(self, number: int, step: Step, known: Known) -> Iterator[tuple[str, Value]]:
-        for param, own in self._params(number, step, known):
-            try:
-                value = value_of(param, own)
-                _check_range(known, own, value)
-                self._check_id(own, value)
-            except ValueError as error:  # noqa: PERF203 - every fault is to be told
-                self._add(number, step, str(error), param.name)
-            else:
-                # PyMeshLab takes no cameras from scripts, and writes none: it is empty.
-                if own.type != "RichShotf":
-                    yield own.keyword, value
+    def _take(self, call: Call, step: Step, item: Given, own: KnownParam) -> None:
+        """Put a parameter's value into a call, or tell why it is none."""
+        try:
+            value = value_of(item.param, own)
+            _check_range(call.known, own, value)
+            self._check_id(own, value)
+        except ValueError as error:
+            self._add(call.number, step, str(error), item.shown)
+            return
+        # PyMeshLab takes no cameras from scripts, and writes none: it is empty.
+        if own.type != "RichShotf":
+            call.given[own.keyword] = value
+            call.details[own.keyword] = item.param.details
 
-    def _params(self, number: int, step: Step, known: Known) -> Iterator[tuple[Param, KnownParam]]:
+    def _params(
+        self, number: int, step: Step, known: Known, todays: Todays, gap: Gap
+    ) -> Iterator[tuple[Given, KnownParam]]:
         """The parameters that the filter has, each once."""
         seen: dict[str, str] = {}
-        for param in step.params:
-            own = known.param(param.name)
+        for item in todays.given:
+            own = known.param(item.param.name)
             if own is None:
-                self._add(number, step, _no_parameter(known, param.name), param.name)
+                self._add(number, step, _no_parameter(known, item.shown), item.shown)
             elif own.keyword in seen:
                 first = seen[own.keyword]
-                also = "" if first == param.name else f", also as {quoted(first)}"
-                self._add(number, step, f"is given twice{also}", param.name)
+                also = "" if first == item.shown else f", also as {quoted(first)}"
+                self._add(number, step, f"is given twice{also}", item.shown)
             else:
-                seen[own.keyword] = param.name
-                yield param, own
+                seen[own.keyword] = item.shown
+                if item.shown in gap.untyped:
+                    text = f"has no type; it is read as {own.type}, the filter's own"
+                    self._warn(number, step, Remark(item.shown, text))
+                yield item, own
+        self._check_broken(number, step, known, gap)
+        unread = {own.keyword for param in gap.broken if (own := known.param(param.name))}
+        lost = {remark.shown for remark in todays.problems}
         for own in known.params:
-            if own.required and own.keyword not in seen:
+            if own.required and own.keyword not in {*seen, *unread} and not (gap.is_cut or lost):
                 self._add(number, step, "is missing; the filter can't do without it", own.name)
+
+    def _check_broken(self, number: int, step: Step, known: Known, gap: Gap) -> None:
+        """Tell what else is wrong with parameters whose values can't be read."""
+        for param in gap.broken:
+            own = known.param(old_names.plain(param.name))
+            if own is not None:
+                if problem := mismatch(param, own):
+                    self._add(number, step, problem, param.name)
+            elif not old_names.params_of(known.name, param.name):
+                self._add(number, step, _no_parameter(known, param.name), param.name)
+
+    # --- warnings ------------------------------------------------------------------------------
+
+    def _warn_of_name(self, number: int, step: Step, known: Known) -> None:
+        if step.filter in (known.name, known.meshlab_name):
+            if document.is_step(known.name):
+                self._warn(number, step, Remark("", "MeshLab has no such step any more"))
+            return
+        old = old_names.filter_of(step.filter)
+        today = known.meshlab_name or known.name
+        text = f"is {today!r} in today's MeshLab"
+        if old and old.note:
+            text += f": {old.note}"
+        self._warn(number, step, Remark("", text, changes_result=bool(old and old.note)))
+        if old:
+            self._make_older(old_names.age(old.until))
+
+    def warn_of_defaults(self) -> None:
+        """Tell of defaults that have changed since the script was written, as far as it shows."""
+        for number, step, call in self._checked if self._age is not None else ():
+            for old in old_names.defaults_of(call.known.name):
+                own = call.known.param(old.param)
+                then = self._age is not None and self._age <= old_names.age(old.until)
+                if own and own.keyword not in call.given and then:
+                    text = (
+                        f"is not given: it was {old.was} until MeshLab {old.until}, and is "
+                        f"{old.now} today"
+                    )
+                    self._warn(number, step, Remark(old.param, text, changes_result=True))
+
+    def _warn(self, number: int, step: Step, remark: Remark) -> None:
+        if len(self.warnings) < MOST_FAULTS:
+            name, shown = shortened(step.filter), shortened(remark.shown)
+            changes = remark.changes_result
+            self.warnings.append(ScriptWarning(remark.text, number, name, shown, "", changes))
+
+    def _make_older(self, age: int | None) -> None:
+        if age is not None:
+            self._age = age if self._age is None else min(self._age, age)
+
+    # --- faults --------------------------------------------------------------------------------
 
     def _check_id(self, own: KnownParam, value: Any) -> None:
         if own.type != "RichMesh" or self._ids is None or value in self._ids:
@@ -159,8 +282,7 @@ class _Checker:
         return self._ids is not None and self._left <= 0 and not self._may_be_more
 
     def _add(self, number: int, step: Step, text: str, param: str = "") -> None:
-        if len(self.faults) == MOST_FAULTS:
-            self.faults.append(Fault(f"has more than {MOST_FAULTS} faults; these are the first"))
+        if len(self.faults) > MOST_FAULTS:
             raise _EnoughError
         self.faults.append(Fault(text, number, shortened(step.filter), shortened(param)))
 
@@ -181,6 +303,9 @@ _NO_MESH = "needs a mesh; give an input, or begin with a filter that creates one
 def _absent(name: str) -> str:
     if not name:
         return "has no name"
+    last = old_names.last_version_with(name)
+    if last:
+        return f"MeshLab had this filter until {last}, and has none in its place"
     return "no such filter; " + _meant(
         name, catalogue.closest(name), "'meshlab-willmore filters' lists them"
     )

@@ -27,17 +27,12 @@ def _modernised(step: Step) -> Step:
 
 def in_todays_form(call: Call, step: Step) -> Step:
     """The step that `call` was made of, in today's form; descriptions and ranges stay."""
-    details = {}
-    for old in step.params:
-        known = call.known.param(old.name)
-        if known is not None:
-            details[known.keyword] = tuple(pair for pair in old.details if pair[0] not in _OLD)
     params = []
     for keyword, value in call.given.items():
         known = call.known.param(keyword)
         if known is not None:
-            extra = _with_choices(known, details.get(keyword, ()))
-            params.append(Param(known.name, known.type, value, extra))
+            details = tuple(pair for pair in call.details[keyword] if pair[0] not in _OLD)
+            params.append(Param(known.name, known.type, value, _with_choices(known, details)))
     # The MeshLab name of a plugin that the user brought is not known.
     return step._replace(filter=call.known.meshlab_name or step.filter, params=tuple(params))
 

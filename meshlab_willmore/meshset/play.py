@@ -16,7 +16,7 @@ from pymeshlab import MeshSet
 
 from ..markup import plain
 from ..mlx.steps import Percentage
-from . import layers, native, numbering
+from . import document, layers, native, numbering
 from .apply import apply, values_of
 from .check import Call
 from .filters import BY_NAME
@@ -91,7 +91,9 @@ def _play_one(ms: MeshSet, call: Call, source: str) -> Played:
     try:
         given = {key: _native_value(ms, call, key, value) for key, value in call.given.items()}
         layers.sweep(ms)
-        if call.known.ours:
+        if document.is_step(name):
+            returned = document.play(ms, name, given)
+        elif call.known.ours:
             returned = apply(ms, BY_NAME[name], values_of(ms, BY_NAME[name], given))
         else:
             given = _without_defaults(ms, name, given)

@@ -21,6 +21,7 @@ from pymeshlab import MeshSet
 from ..mlx.read import read, read_bytes
 from ..mlx.steps import Param, ScriptError, Step, Value
 from . import catalogue, native, numbering
+from .check import faults_of, is_todays
 from .filter import Filter
 from .filters import FILTERS
 from .modern import modernised
@@ -101,7 +102,9 @@ def forget(ms: MeshSet) -> None:
 
 
 def our_script(path: str) -> tuple[Step, ...] | None:
-    """The steps of a file that holds one of our filters; None for what is PyMeshLab's to load.
+    """The steps of a file that needs this package; None for what is PyMeshLab's to load.
+
+    That is a script that holds one of our filters, or can be run but has old names.
 
     Raises
     ------
@@ -115,7 +118,14 @@ def our_script(path: str) -> tuple[Step, ...] | None:
             raise
         return None
     found = (catalogue.find(step.filter) for step in steps)
-    return modernised(steps) if any(known and known.ours for known in found) else None
+    if any(known and known.ours for known in found) or _is_ours_to_run(steps):
+        return modernised(steps)
+    return None
+
+
+def _is_ours_to_run(steps: tuple[Step, ...]) -> bool:
+    """Whether steps can be run, but not by PyMeshLab, which knows no names but today's."""
+    return not all(map(is_todays, steps)) and not faults_of(steps)
 
 
 def _names_ours(path: str) -> bool:

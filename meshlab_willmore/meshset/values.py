@@ -73,12 +73,20 @@ def _typed(param: Param, own: KnownParam) -> Value:
         untyped = isinstance(param.value, str)
         return rich.parse_text(own.type, str(param.value)) if untyped else param.value
     rich.attributes(param)
-    if _KINDS[param.type] != _KINDS[own.type]:
-        raise ValueError(
-            f"is given as {param.type}, but is a {own.type}: PyMeshLab would read "
-            f"{_MISREAD.get(own.type, 'zero')}; write type='{own.type}'"
-        )
+    if problem := mismatch(param, own):
+        raise ValueError(problem)
     return param.value
+
+
+def mismatch(param: Param, own: KnownParam) -> str | None:
+    """What to say if a parameter's type is one that PyMeshLab misreads for the filter's own."""
+    kind = _KINDS.get(param.type)
+    if kind is None or kind == _KINDS[own.type]:
+        return None
+    return (
+        f"is given as {param.type}, but is a {own.type}: PyMeshLab would read "
+        f"{_MISREAD.get(own.type, 'zero')}; write type='{own.type}'"
+    )
 
 
 def _choice(own: KnownParam, text: str) -> int:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NoReturn
+from typing import Any, NoReturn
 from xml.sax.handler import ContentHandler, LexicalHandler
 from xml.sax.xmlreader import AttributesImpl, Locator
 
 from . import rich
 from .kinds import PERCENTAGE
-from .steps import Fault, Param, Step
+from .steps import Fault, Gap, Param, Reading, Step
 from .words import closest, meant_for, missing, quoted, shortened
 
 ROOT = "FilterScript"
@@ -34,11 +34,14 @@ class Reader(ContentHandler, LexicalHandler):
         super().__init__()
         self.steps: list[Step] = []
         self.faults: list[Fault] = []
+        self.gaps: dict[int, Gap] = {}
+        self.has_comments = False
         self.declares = False
         self.is_script = False
         self._open: list[str] = []
         self._params: list[Param] = []
         self._seen: set[str] = set()
+        self._unread = False  # whether something before the next step was not read
         self._skipped: int | None = None  # the depth of the element that is skipped
         self._text_told = False
         self._place = Locator()
@@ -55,6 +58,25 @@ class Reader(ContentHandler, LexicalHandler):
         step = self.steps[-1].filter if in_step else ""
         number = len(self.steps) if in_step else 0
         self.faults.append(Fault(text, number, shortened(step), shortened(param)))
+
+    def comment(self, content: str) -> None:
+        """Note that there are comments."""
+        self.has_comments = True
+
+    def result(self) -> Reading:
+        """What has been read so far; the last step may not have ended."""
+        if len(self._open) > 1 and PARENTS.get(self._open[1]) == ROOT:
+            self.steps[-1] = self.steps[-1]._replace(params=tuple(self._params))
+            self._note(is_cut=True)
+        return Reading(tuple(self.steps), tuple(self.faults), self.gaps, self.has_comments)
+
+    def _note(self, **changes: Any) -> None:
+        """Note what of the step that is open could not be read."""
+        number = len(self.steps)
+        self.gaps[number] = self.gaps.get(number, Gap())._replace(**changes)
+
+    def _gap(self) -> Gap:
+        return self.gaps.get(len(self.steps), Gap())
 
     def endDTD(self) -> None:  # noqa: N802
         """Refuse attribute defaults and the like; a plain document type is as it should be."""
@@ -107,7 +129,11 @@ class Reader(ContentHandler, LexicalHandler):
         self.steps.append(Step(attrs.get("name", "")))
         self._params = []
         self._seen = set()
+        if self._unread:
+            self._note(follows_unread=True)
+            self._unread = False
         if not self.steps[-1].filter:
+            self._note(is_nameless=True)
             self.add(
                 f"the filter {self._line()} has no name{meant_for('name', attrs)}", in_step=True
             )
@@ -117,14 +143,23 @@ class Reader(ContentHandler, LexicalHandler):
         if not name:
             text = f"the parameter {self._line()} has no name{meant_for('name', attrs)}"
             self.add(text, in_step=True)
+            self._note(is_cut=True)
         elif name in self._seen:
             self.add("is given twice", name, in_step=True)
+        is_new = name not in self._seen
         self._seen.add(name)
         try:
             param = _old_param(attrs) if tag == OLD_PARAM else _param(attrs)
-            self._params.append(param)
         except ValueError as error:
             self.add(str(error), name, in_step=True)
+            if name and is_new:
+                broken = Param(name, attrs.get("type", ""), None)
+                self._note(broken=(*self._gap().broken, broken))
+            return
+        if not param.type and tag == PARAM and name:
+            self._note(untyped=self._gap().untyped | {name})
+        if name and is_new:
+            self._params.append(param)
 
     def _misplaced(self, name: str, parent: str) -> None:
         cure = ""
@@ -136,6 +171,10 @@ class Reader(ContentHandler, LexicalHandler):
             f"<{shortened(name)}> has no place in <{parent}> {self._line()}{cure}",
             in_step=len(self._open) > 2,
         )
+        if len(self._open) > 2:
+            self._note(is_cut=True)
+        else:
+            self._unread = True
 
     def _line(self) -> str:
         return f"(line {self._place.getLineNumber()})"
@@ -147,12 +186,22 @@ class Reader(ContentHandler, LexicalHandler):
 
 def _param(attrs: Mapping[str, str]) -> Param:
     if not attrs.get("type"):
-        raise ValueError(f"has no type{meant_for('type', attrs)}")
+        return _untyped_param(attrs)
     type = attrs["type"]
     value = rich.parse(type, attrs)
     # Only the text of a percentage differs between the two; today's form is that of MeshLab's type.
     type = "RichAbsPerc" if type == PERCENTAGE else type
     return Param(attrs.get("name", ""), type, value, _details(attrs, rich.fields(type)))
+
+
+def _untyped_param(attrs: Mapping[str, str]) -> Param:
+    """A parameter whose type only its filter can tell; its value is a text."""
+    meant = meant_for("type", attrs)
+    fields = rich.fields_in(attrs)
+    if meant or not fields:
+        raise ValueError(f"has no type{meant}")
+    text = " ".join(attrs[field] for field in fields)
+    return Param(attrs.get("name", ""), "", text, _details(attrs, fields))
 
 
 def _old_param(attrs: Mapping[str, str]) -> Param:

@@ -18,7 +18,7 @@ from defusedxml.expatreader import DefusedExpatParser
 
 from .elements import ROOT, EnoughError, Reader
 from .source import bytes_of, text_of
-from .steps import ScriptError, Step
+from .steps import Reading, ScriptError, Step
 from .words import quoted
 
 
@@ -55,13 +55,27 @@ def read_bytes(data: bytes, source: str, strict: bool = True) -> tuple[Step, ...
     ScriptError
         As `read`; where `strict` is false, only if it is no script at all.
     """
+    reading = reading_of(data, source)
+    if strict and reading.faults:
+        raise ScriptError(source, reading.faults)
+    return reading.steps
+
+
+def reading_of(data: bytes, source: str) -> Reading:
+    """All that can be read of a filter script, and what is wrong with the rest.
+
+    Raises
+    ------
+    ScriptError
+        If it is no script at all.
+    """
     text = text_of(data, source)
     reader = Reader()
     with suppress(EnoughError):
         _parse(text, reader)
-    if reader.faults and (strict or not reader.is_script):
+    if not reader.is_script:
         raise ScriptError(source, reader.faults)
-    return tuple(reader.steps)
+    return reader.result()
 
 
 def _parse(text: str, reader: Reader) -> None:

@@ -99,6 +99,13 @@ def fields(type: str) -> tuple[str, ...]:
     return _kind(type).fields
 
 
+def fields_in(attributes: Mapping[str, str]) -> tuple[str, ...]:
+    """The attributes that hold a value whose type nobody says; none if there is no value."""
+    known = (kind.fields for kind in KINDS.values() if kind.fields)
+    found = [fields for fields in known if all(field in attributes for field in fields)]
+    return found[0] if found else ()
+
+
 def _kind(type: str) -> Kind:
     if type in KINDS:
         return KINDS[type]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from types import MappingProxyType
 from typing import NamedTuple
 
 
@@ -68,14 +69,83 @@ class Fault(NamedTuple):
 
     def __str__(self) -> str:
         """One line: file, step, filter and parameter as far as they are known, then the text."""
-        text = self._within_the_script()
-        return f"{self.source}: {text}" if self.source else text
+        return _line(self)
 
-    def _within_the_script(self) -> str:
-        where = f"step {self.step}" if self.step else ""
-        where += f" ({self.filter})" if self.filter else ""
-        where += f", parameter {self.param!r}" if self.param else ""
-        return f"{where}: {self.text}" if where else self.text
+
+class ScriptWarning(NamedTuple):
+    """What one should know of a step that can be run.
+
+    Attributes
+    ----------
+    text, step, filter, param, source
+        As of a `Fault`.
+    changes_result : bool
+        Whether the step does something else than it did where the script was written.
+    """
+
+    text: str
+    step: int = 0
+    filter: str = ""
+    param: str = ""
+    source: str = ""
+    changes_result: bool = False
+
+    def __str__(self) -> str:
+        """One line, as of a `Fault`."""
+        return _line(self)
+
+
+def _line(said: Fault | ScriptWarning) -> str:
+    where = f"step {said.step}" if said.step else ""
+    where += f" ({said.filter})" if said.filter else ""
+    where += f", parameter {said.param!r}" if said.param else ""
+    text = f"{where}: {said.text}" if where else said.text
+    return f"{said.source}: {text}" if said.source else text
+
+
+class Gap(NamedTuple):
+    """What of a step could not be read, or only with the filter's help.
+
+    Attributes
+    ----------
+    broken : tuple of Param
+        Parameters without a value that can be read; their value is None.
+    untyped : frozenset of str
+        Names of parameters that have no type where they should have one.
+    is_cut : bool
+        Whether the step may have had more parameters.
+    is_nameless : bool
+        Whether the step has no name.
+    follows_unread : bool
+        Whether something before the step was not read, which may have been another step.
+    """
+
+    broken: tuple[Param, ...] = ()
+    untyped: frozenset[str] = frozenset()
+    is_cut: bool = False
+    is_nameless: bool = False
+    follows_unread: bool = False
+
+
+class Reading(NamedTuple):
+    """All that could be read of a script.
+
+    Attributes
+    ----------
+    steps : tuple of Step
+        What could be read; steps and parameters with faults are left out, or in part.
+    faults : tuple of Fault
+        Why the others could not.
+    gaps : mapping of int to Gap
+        By a step's number.
+    has_comments : bool
+        Whether there are comments, which no step holds.
+    """
+
+    steps: tuple[Step, ...]
+    faults: tuple[Fault, ...] = ()
+    gaps: Mapping[int, Gap] = MappingProxyType({})
+    has_comments: bool = False
 
 
 class ScriptError(ValueError):

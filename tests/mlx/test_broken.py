@@ -235,7 +235,7 @@ PARAMS = [
         script('<filter name="F"><Param type="RichInt" value="1"/></filter>'),
         "step 1 (F): the parameter (line 3) has no name",
     ),
-    ("no-type", one_param(value="1"), P + "has no type"),
+    ("no-type", one_param(tooltip="1"), P + "has no type"),
     (
         "type-misspelt",
         one_param(typ="RichInt", value="1"),

@@ -1,0 +1,97 @@
+"""Steps of MeshLab's older scripts that are about the set of meshes, not about a mesh.
+
+MeshLab had them as filters until 2021.07. PyMeshLab has none of these filters, but methods of
+`MeshSet`, so these steps are played here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from pymeshlab import MeshSet
+
+from . import layers, native
+from .keywords import keyword_of
+from .probe import KnownParam
+
+
+class DocumentStep(NamedTuple):
+    """A step: its names in PyMeshLab and MeshLab, and the parameters that it had."""
+
+    name: str
+    meshlab_names: tuple[str, ...]
+    params: tuple[KnownParam, ...]
+    summary: str
+
+
+def _param(name: str, type: str) -> KnownParam:
+    return KnownParam(name, keyword_of(name), type, (), False)
+
+
+_CURRENT = DocumentStep(
+    "set_current_mesh",
+    ("Change the current layer",),
+    (_param("mesh", "RichMesh"),),
+    "Makes another layer the current one.",
+)
+_VISIBILITY = DocumentStep(
+    "set_mesh_visibility",
+    ("Change Visibility of layer(s)", "Change Visibility of a Mesh"),
+    (
+        _param("layer", "RichMesh"),
+        _param("lName", "RichString"),
+        _param("isMeshVisible", "RichBool"),
+    ),
+    "Shows or hides a layer, or all whose names hold a text.",
+)
+# MeshLab's meshes could have unused places for vertices and faces; a mesh of PyMeshLab has none
+# that anyone sees.
+_COMPACT = tuple(
+    DocumentStep(keyword_of(name), (name,), (), "Did nothing that could be seen.")
+    for name in ("Compact vertices", "Compact faces")
+)
+STEPS = (_CURRENT, _VISIBILITY, *_COMPACT)
+_BY_NAME = {name: step for step in STEPS for name in (step.name, *step.meshlab_names)}
+
+
+def find(name: str) -> DocumentStep | None:
+    """The step of that name in MeshLab or PyMeshLab."""
+    return _BY_NAME.get(name)
+
+
+def is_step(name: str) -> bool:
+    """Whether a name in PyMeshLab is that of such a step."""
+    return any(step.name == name for step in STEPS)
+
+
+def play(ms: MeshSet, name: str, given: Mapping[str, Any]) -> dict[str, Any]:
+    """Do what a step says; ids in `given` are those that the set shows.
+
+    Parameters
+    ----------
+    ms : pymeshlab.MeshSet
+        Changed in place.
+    name : str
+        The step's name in PyMeshLab.
+    given : mapping
+        Its parameters by keyword. MeshLab's defaults were the current layer, and "visible".
+
+    Returns
+    -------
+    dict
+        Empty, as of a filter that returns nothing.
+    """
+    if name == _CURRENT.name and "mesh" in given:
+        native.make_current(ms, given["mesh"])
+    if name == _VISIBILITY.name:
+        for mesh_id in _chosen(ms, given):
+            native.show(ms, mesh_id, given.get("ismeshvisible", True))
+    return {}
+
+
+def _chosen(ms: MeshSet, given: Mapping[str, Any]) -> list[int]:
+    part = given.get("lname", "")
+    if part:
+        return [i for i in layers.visible_ids(ms) if part in ms.mesh(i).label()]
+    return [given.get("layer", ms.current_mesh_id())]

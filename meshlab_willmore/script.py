@@ -19,7 +19,6 @@ from pathlib import Path
 
 import pymeshlab
 
-from .meshset import layers, numbering
 from .meshset.check import Call, Findings, examine
 from .meshset.modern import modernised
 from .meshset.play import Played, play
@@ -134,8 +133,7 @@ def run(
         If a step fails; it is named, and the steps before it have had their effect.
     """
     ms = pymeshlab.MeshSet() if ms is None else ms
-    there = [numbering.logical_id(ms, i) for i in layers.visible_ids(ms)]
-    checked = _without_fault(examined(script, there), script)
+    checked = _without_fault(examined(script, [mesh.id() for mesh in ms]), script)
     return play(ms, checked, _name_of(script), before, after)
 
 

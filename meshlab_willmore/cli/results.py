@@ -56,7 +56,7 @@ def save(ms: pymeshlab.MeshSet, job: Job, wishes: Wishes, log: Log) -> str:
         return "not saved (no -o)"
     if ms.mesh_number() == 0:
         raise OSError(f"cannot write {job.outputs[0]}: the script leaves no mesh")
-    layers = _layers(ms)
+    layers = [mesh.id() for mesh in ms]
     if len(job.outputs) > len(layers):
         left = counted(len(layers), "layer")
         raise OSError(f"{len(job.outputs)} outputs, but the script leaves {left}")
@@ -69,13 +69,6 @@ def save(ms: pymeshlab.MeshSet, job: Job, wishes: Wishes, log: Log) -> str:
         log.say(f"output {' '.join(map(str, files))} ({_size(ms)})")
         texts.append(f"{path} ({_size(ms)})")
     return ", ".join(texts)
-
-
-def _layers(ms: pymeshlab.MeshSet) -> list[int]:
-    """The ids of the layers, in the order in which the script would count them."""
-    from ..meshset import layers, numbering
-
-    return sorted(layers.visible_ids(ms), key=lambda i: numbering.logical_id(ms, i))
 
 
 def _size(ms: pymeshlab.MeshSet) -> str:

@@ -63,8 +63,7 @@ FILTERS = (
         "Write the discrete Willmore energy of each vertex into the vertex scalar.",
         "It is the sum of the angles between the circumcircles of neighbouring faces over the "
         "edges of the vertex, minus 2 pi, in radians: 0 where the vertex is convex and lies with "
-        "its neighbours on a sphere or plane. Boundary vertices get 0. The next layer of the set "
-        "gets an id that is one higher than it would be otherwise.",
+        "its neighbours on a sphere or plane. Boundary vertices get 0.",
         (),
         (),
         _write_scalar,

@@ -8,7 +8,7 @@ from typing import Any
 import pymeshlab
 
 from ..mesh.validate import check_count, check_degrees, check_place, check_seed
-from . import exchange, interrupts, sides
+from . import exchange, interrupts, native, numbering, sides
 from .filter import Filter, current_surface
 from .parameters import Parameter
 from .snapshot import take
@@ -248,7 +248,7 @@ def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any]
         "willmore_after": result.willmore_after,
         "converged": result.converged,
         "seconds": seconds,
-        "mesh_id": ms.current_mesh_id(),
+        "mesh_id": numbering.logical_id(ms, native.id_of(native.current_mesh(ms))),
     }
     return returned, f"{result.flips} Willmore edge flips performed in {seconds:.2f} sec."
 
@@ -266,7 +266,7 @@ _RETURNS = (
     ("willmore_after", "float", "Willmore energy after, over interior vertices, in radians."),
     ("converged", "bool", "Whether no allowed flip is left that helps."),
     ("seconds", "float", "Time spent."),
-    ("mesh_id", "int", "Id of the current mesh, which can be new where the set has others."),
+    ("mesh_id", "int", "Id of the current mesh, which the flips leave as it is."),
 )
 
 FLIPS = Filter(
@@ -277,7 +277,9 @@ FLIPS = Filter(
     "Edges are flipped as long as that lowers an energy, by default a discrete Willmore energy "
     "(Bobenko), measured with virtual points in the middle of the edges, as in 'Mesh optimisation "
     "based on Willmore energy'. Vertices never move. Boundary and non-manifold edges, texture "
-    "seams stay, and so do polygons; meshing_poly_to_tri makes triangles of them.",
+    "seams stay, and so do polygons; meshing_poly_to_tri makes triangles of them. The flipped mesh "
+    "keeps its id and its place, but in PyMeshLab's own list it goes to the end: merging visible "
+    "meshes then gives another order of vertices and faces.",
     _PARAMETERS,
     _RETURNS,
     _flip,

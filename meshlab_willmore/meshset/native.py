@@ -1,7 +1,8 @@
 """PyMeshLab's own functions, called so that nobody can tell.
 
 Helper filters of this package don't show in a set's filter script, print nothing, and are not seen
-by subclasses or wrappers of `MeshSet`.
+by subclasses or wrappers of `MeshSet`. Ids are PyMeshLab's own here, the physical ones of
+`numbering`.
 """
 
 from __future__ import annotations
@@ -13,10 +14,10 @@ import inspect
 import os
 import sys
 import weakref
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Generic, NamedTuple, TypeVar
+from typing import IO, Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 import pymeshlab
@@ -29,15 +30,23 @@ _add_mesh = inspect.unwrap(MeshSet.add_mesh)
 _apply_filter = inspect.unwrap(MeshSet.apply_filter)
 _clear = inspect.unwrap(MeshSet.clear)
 _clear_filter_script = inspect.unwrap(MeshSet.clear_filter_script)
+_current_mesh = inspect.unwrap(MeshSet.current_mesh)
+_current_mesh_id = inspect.unwrap(MeshSet.current_mesh_id)
 _filter_parameter_values = inspect.unwrap(MeshSet.filter_parameter_values)
 _iterate = inspect.unwrap(MeshSet.__iter__)
 _load_filter_script = inspect.unwrap(MeshSet.load_filter_script)
 _load_new_mesh = inspect.unwrap(MeshSet.load_new_mesh)
+_mesh = inspect.unwrap(MeshSet.mesh)
+_mesh_id_exists = inspect.unwrap(MeshSet.mesh_id_exists)
 _save_filter_script = inspect.unwrap(MeshSet.save_filter_script)
 _set_current_mesh = inspect.unwrap(MeshSet.set_current_mesh)
 _set_mesh_visibility = inspect.unwrap(MeshSet.set_mesh_visibility)
 _set_parameter_verbosity = inspect.unwrap(MeshSet.set_parameter_verbosity)
 _set_verbosity = inspect.unwrap(MeshSet.set_verbosity)
+_id_of = inspect.unwrap(pymeshlab.Mesh.id)
+
+# The id that no layer has.
+NO_LAYER = -1
 
 # What PyMeshLab's functions raise; not all of it is a PyMeshLabException.
 ERRORS: tuple[type[Exception], ...] = (
@@ -53,17 +62,17 @@ Value = TypeVar("Value")
 
 
 class PerSet(Generic[Value]):
-    """A value for each `MeshSet`, told apart by identity, whatever a subclass calls equal."""
+    """A value for each `MeshSet`, or `Mesh`, told apart by identity, whatever it calls equal."""
 
     def __init__(self, default: Value) -> None:
         self._default = default
         self._values: dict[int, Value] = {}
 
-    def get(self, ms: MeshSet) -> Value:
+    def get(self, ms: MeshSet | pymeshlab.Mesh) -> Value:
         """The value of `ms`, or the default."""
         return self._values.get(id(ms), self._default)
 
-    def put(self, ms: MeshSet, value: Value) -> None:
+    def put(self, ms: MeshSet | pymeshlab.Mesh, value: Value) -> None:
         """Set the value of `ms`; it goes when the set goes."""
         if id(ms) not in self._values:
             weakref.finalize(ms, self._values.pop, id(ms), None).atexit = False
@@ -72,7 +81,8 @@ class PerSet(Generic[Value]):
 
 def apply(ms: MeshSet, name: str, /, **given: Any) -> dict[str, Any]:
     """Apply a native filter."""
-    return _apply_filter(ms, name, **given)
+    with spoken(ms):
+        return _apply_filter(ms, name, **given)
 
 
 def defaults(ms: MeshSet, name: str, /, **given: Any) -> dict[str, Any]:
@@ -95,9 +105,32 @@ def add(ms: MeshSet, mesh: pymeshlab.Mesh, label: str = "") -> None:
     _add_mesh(ms, mesh, label)
 
 
-def make_current(ms: MeshSet, mesh_id: int) -> None:
-    """Make a layer the current one."""
-    _set_current_mesh(ms, mesh_id)
+def make_current(ms: MeshSet, mesh_id: int | None) -> None:
+    """Make a layer the current one, or none."""
+    _set_current_mesh(ms, NO_LAYER if mesh_id is None else mesh_id)
+
+
+def current_id(ms: MeshSet) -> int | None:
+    """The id of the current layer; None if there is none."""
+    try:
+        return _current_mesh_id(ms)
+    except pymeshlab.PyMeshLabException:
+        return None
+
+
+def current_mesh(ms: MeshSet) -> pymeshlab.Mesh:
+    """The current layer."""
+    return _current_mesh(ms)
+
+
+def mesh(ms: MeshSet, mesh_id: int) -> pymeshlab.Mesh:
+    """The layer of an id."""
+    return _mesh(ms, mesh_id)
+
+
+def is_there(ms: MeshSet, mesh_id: int) -> bool:
+    """Whether there is a layer of that id."""
+    return _mesh_id_exists(ms, mesh_id)
 
 
 def show(ms: MeshSet, mesh_id: int, visible: bool) -> None:
@@ -106,8 +139,13 @@ def show(ms: MeshSet, mesh_id: int, visible: bool) -> None:
 
 
 def ids(ms: MeshSet) -> list[int]:
-    """The ids of all layers, in their order."""
-    return [mesh.id() for mesh in _iterate(ms)]
+    """The ids of all layers, in PyMeshLab's order."""
+    return [id_of(layer) for layer in _iterate(ms)]
+
+
+def id_of(layer: pymeshlab.Mesh) -> int:
+    """The id of a layer."""
+    return _id_of(layer)
 
 
 @contextmanager
@@ -212,6 +250,8 @@ class Verbosity(NamedTuple):
     parameters: bool = False
 
 
+_SILENT = (Verbosity(), Verbosity(all=False))
+
 # PyMeshLab has no way to ask, so `register` notes what it is told.
 _verbosity: PerSet[Verbosity] = PerSet(Verbosity())
 
@@ -243,23 +283,87 @@ def _quiet(ms: MeshSet) -> Iterator[None]:
 
 @contextmanager
 def muted() -> Iterator[None]:
-    """PyMeshLab's C++ side prints nothing inside, not even what no verbosity controls.
+    """PyMeshLab's C++ side prints nothing inside, not even what no verbosity controls."""
+    with open(os.devnull, "wb") as sink, _redirected((1, 2), sink):
+        yield
 
-    Its streams don't ask Python, so the file descriptors are turned away, for the while of one
-    short call.
+
+def printed(call: Callable[[], object]) -> str:
+    """What PyMeshLab's C++ side would print to standard output in a call, which prints nothing."""
+    with tempfile.TemporaryFile() as file:
+        with _redirected((1,), file):
+            call()
+        file.seek(0)
+        return file.read().decode("utf-8", errors="replace")
+
+
+@contextmanager
+def _redirected(descriptors: Iterable[int], sink: IO[bytes]) -> Iterator[None]:
+    """What goes to some descriptors goes into a file, for the while of one short call.
+
+    PyMeshLab's streams don't ask Python.
     """
     with contextlib.ExitStack() as stack:
         _flush_c_streams()
-        for descriptor in (1, 2):
-            # A program without a console has no such descriptors, and nothing to hide.
+        for descriptor in descriptors:
+            # A program without a console has no such descriptors, and prints nothing.
             with contextlib.suppress(OSError):
                 saved = os.dup(descriptor)
                 stack.callback(os.close, saved)
                 stack.callback(os.dup2, saved, descriptor)
-                with open(os.devnull, "wb") as sink:
-                    os.dup2(sink.fileno(), descriptor)
+                os.dup2(sink.fileno(), descriptor)
         stack.callback(_flush_c_streams)
         yield
+
+
+class _InTurn:
+    """Python's standard output, while C's is printed to as well: neither waits in a buffer."""
+
+    def __init__(self, stream: IO[str]) -> None:
+        self._stream = stream
+
+    def write(self, text: str) -> int:
+        _flush_c_streams()
+        count = self._stream.write(text)
+        self._stream.flush()
+        return count
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
+
+
+@contextmanager
+def in_order() -> Iterator[None]:
+    """What is printed inside, by Python or by PyMeshLab, comes between what is before and after.
+
+    PyMeshLab prints to C's standard output, and some of it to Python's: in a pipe both wait until
+    a buffer is full.
+    """
+    _flush()
+    out: Any = sys.stdout and _InTurn(sys.stdout)
+    try:
+        with contextlib.redirect_stdout(out):
+            yield
+    finally:
+        _flush()
+
+
+@contextmanager
+def spoken(ms: MeshSet) -> Iterator[None]:
+    """The same, where `ms` was told to print what it does."""
+    if verbosity(ms) in _SILENT:
+        yield
+        return
+    with in_order():
+        yield
+
+
+def _flush() -> None:
+    for stream in (sys.stdout, sys.__stdout__):
+        # A program can have no standard output, or have closed it.
+        if stream is not None and not stream.closed:
+            stream.flush()
+    _flush_c_streams()
 
 
 def _flush_c_streams() -> None:

@@ -1,49 +1,60 @@
-"""What the ids of a set's layers would be if our filters worked in place, as MeshLab's do.
+"""Ids of layers as if our filters worked in place, as MeshLab's do.
 
-A flipped mesh can be a new layer with a new id, and helper layers use up ids too. Filter scripts
-speak of layers by id, and are to be run on other sets: in them, ids count as if none of that
-happened. Such an id is called *logical* here, and one that the set shows *physical*.
+A flipped mesh can be a new layer with a new id, and helper layers use up ids too. Nobody should
+have to know: ids that callers, loops and filter scripts use count as if none of that happened. Such
+an id is called *logical* here, and PyMeshLab's own is called *physical*. A layer keeps its logical
+id as long as it is there, and so does what takes its place.
 """
 
 from __future__ import annotations
 
 import operator
-from bisect import bisect_left
-from collections.abc import Mapping
+from bisect import bisect_left, bisect_right
 from typing import Any, NamedTuple
 
+import pymeshlab
 from pymeshlab import MeshSet
 
 from . import native
 
 
 class _Numbering(NamedTuple):
-    """By set: ids that our filters used up, ascending, and which layer each took the place of."""
+    """What became of the ids of a set.
 
-    used: tuple[int, ...] = ()
-    replaced: tuple[tuple[int, int], ...] = ()
+    `used` are the physical ids that our filters used up, ascending; `origins` the logical ids of
+    layers that took the place of others, by physical id; `newest` the last such layer, by logical
+    id.
+    """
+
+    used: tuple[int, ...]
+    origins: dict[int, int]
+    newest: dict[int, int]
 
 
-_numberings: native.PerSet[_Numbering] = native.PerSet(_Numbering())
+_UNMOVED = _Numbering((), {}, {})
+_numberings: native.PerSet[_Numbering] = native.PerSet(_UNMOVED)
+# By `Mesh` object that was handed out: its logical id, where that is not the physical one.
+_shown: native.PerSet[int | None] = native.PerSet(None)
 
 
 def note_used(ms: MeshSet, mesh_id: int) -> None:
-    """Remember that a helper layer used up an id."""
+    """Remember that a helper layer used up a physical id."""
     numbering = _numberings.get(ms)
     _numberings.put(ms, numbering._replace(used=(*numbering.used, mesh_id)))
 
 
 def note_replaced(ms: MeshSet, old_id: int, new_id: int) -> None:
-    """Remember that a new layer took the place of another."""
+    """Remember that a new layer took the place of another; the ids are physical."""
+    logical = logical_id(ms, old_id)
     note_used(ms, new_id)
-    numbering = _numberings.get(ms)
-    _numberings.put(ms, numbering._replace(replaced=(*numbering.replaced, (new_id, old_id))))
+    used, origins, newest = _numberings.get(ms)
+    _numberings.put(ms, _Numbering(used, {**origins, new_id: logical}, {**newest, logical: new_id}))
 
 
 def forget(ms: MeshSet) -> None:
     """Start anew, with a set that was emptied."""
-    if _numberings.get(ms) != _Numbering():
-        _numberings.put(ms, _Numbering())
+    if has_moved(ms):
+        _numberings.put(ms, _UNMOVED)
 
 
 def has_moved(ms: MeshSet) -> bool:
@@ -53,36 +64,49 @@ def has_moved(ms: MeshSet) -> bool:
 
 def logical_id(ms: MeshSet, mesh_id: int) -> int:
     """The logical id of the layer with physical id `mesh_id`."""
-    numbering = _numberings.get(ms)
-    older = dict(numbering.replaced)
-    while mesh_id in older:
-        mesh_id = older[mesh_id]
-    return mesh_id - bisect_left(numbering.used, mesh_id)
+    used, origins, _ = _numberings.get(ms)
+    if mesh_id in origins:
+        return origins[mesh_id]
+    return mesh_id - bisect_left(used, mesh_id)
 
 
 def physical_id(ms: MeshSet, mesh_id: int) -> int | None:
-    """The physical id of the layer with logical id `mesh_id`; the newest, None if there is none."""
-    there = [i for i in native.ids(ms) if logical_id(ms, i) == mesh_id]
-    return max(there, default=None)
+    """The physical id of the layer with logical id `mesh_id`; None if there is none.
 
-
-def redirected(ms: MeshSet, given: Mapping[str, Any]) -> dict[str, Any]:
-    """Keywords of a native call in which ids of replaced layers are those of the layers now there.
-
-    PyMeshLab crashes on the id of a layer that is gone, and that it is gone is our doing.
+    Where a layer took the place of another that is still there, it is the new one.
     """
-    newer = {old: new for new, old in _numberings.get(ms).replaced}
-    return {key: _newest(ms, newer, key, value) for key, value in given.items()}
+    used, _, newest = _numberings.get(ms)
+    physical = newest.get(mesh_id)
+    if physical is None:
+        physical = mesh_id
+        while physical != mesh_id + bisect_right(used, physical):
+            physical = mesh_id + bisect_right(used, physical)
+    return physical if _is_id(physical) and native.is_there(ms, physical) else None
 
 
-def _newest(ms: MeshSet, newer: Mapping[int, int], keyword: str, value: Any) -> Any:
-    # All of PyMeshLab's parameters that are mesh ids, and no others of whole numbers, end so.
-    if not keyword.endswith("mesh") or isinstance(value, bool):
-        return value
+def _is_id(number: int) -> bool:
+    return 0 <= number < 2**31
+
+
+def physical_of(ms: MeshSet, value: Any) -> Any:
+    """The physical id for a logical one that a caller gave; None if there is no such layer.
+
+    What is no whole number comes back as it is: PyMeshLab refuses it.
+    """
     try:
         mesh_id = operator.index(value)
     except TypeError:
         return value
-    while mesh_id in newer and not ms.mesh_id_exists(mesh_id):
-        mesh_id = newer[mesh_id]
-    return mesh_id
+    return physical_id(ms, mesh_id)
+
+
+def note_shown(ms: MeshSet, mesh: pymeshlab.Mesh) -> None:
+    """Remember the logical id of a `Mesh` object that is handed out."""
+    # The object can have belonged to another layer, at the same place of memory.
+    if has_moved(ms) or _shown.get(mesh) is not None:
+        _shown.put(mesh, logical_id(ms, native.id_of(mesh)))
+
+
+def shown_id(mesh: pymeshlab.Mesh) -> int | None:
+    """The logical id of a `Mesh` object, where it was noted."""
+    return _shown.get(mesh)

@@ -16,7 +16,7 @@ from pymeshlab import MeshSet
 
 from ..markup import plain
 from ..mlx.steps import Percentage
-from . import document, layers, native, numbering
+from . import document, layers, native, native_calls
 from .apply import apply, values_of
 from .check import Call
 from .filters import BY_NAME
@@ -89,7 +89,7 @@ def _play_one(ms: MeshSet, call: Call, source: str) -> Played:
     name = call.known.name
     start = time.perf_counter()
     try:
-        given = {key: _native_value(ms, call, key, value) for key, value in call.given.items()}
+        given = {key: _native_value(call, key, value) for key, value in call.given.items()}
         layers.sweep(ms)
         if document.is_step(name):
             returned = document.play(ms, name, given)
@@ -97,7 +97,7 @@ def _play_one(ms: MeshSet, call: Call, source: str) -> Played:
             returned = apply(ms, BY_NAME[name], values_of(ms, BY_NAME[name], given))
         else:
             given = _without_defaults(ms, name, given)
-            with layers.parked_aside(ms, name, given) as completed:
+            with native_calls.prepared(ms, name, given) as completed:
                 returned = native.apply(ms, name, **completed)
     except Exception as error:
         if not call.known.ours:
@@ -119,7 +119,7 @@ def _reason(error: Exception, call: Call) -> str:
     return text.strip().removeprefix("Details: ") or type(error).__name__
 
 
-def _native_value(ms: MeshSet, call: Call, keyword: str, value: Any) -> Any:
+def _native_value(call: Call, keyword: str, value: Any) -> Any:
     """The value as PyMeshLab's filter functions take it."""
     param = call.known.param(keyword)
     kind = param.type if param else ""
@@ -129,23 +129,11 @@ def _native_value(ms: MeshSet, call: Call, keyword: str, value: Any) -> Any:
         return pymeshlab.PureValue(value)
     if kind == "RichColor":
         return pymeshlab.Color(*value)
-    if kind == "RichMesh":
-        return _mesh_id(ms, keyword, value)
     if isinstance(value, tuple):
         array = np.array(value, dtype=float)
         is_matrix = len(array) == _MATRIX_SIDE * _MATRIX_SIDE
         return array.reshape(_MATRIX_SIDE, _MATRIX_SIDE) if is_matrix else array
     return value
-
-
-def _mesh_id(ms: MeshSet, keyword: str, value: Any) -> int:
-    """PyMeshLab would crash where there is no such mesh."""
-    mesh_id = numbering.physical_id(ms, value)
-    if mesh_id is None:
-        there = sorted(numbering.logical_id(ms, i) for i in layers.visible_ids(ms))
-        known = ", ".join(map(str, there)) or "none"
-        raise ValueError(f"parameter {keyword!r}: there is no mesh {value} (there are: {known})")
-    return mesh_id
 
 
 def _without_defaults(ms: MeshSet, name: str, given: dict[str, Any]) -> dict[str, Any]:

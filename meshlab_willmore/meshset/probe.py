@@ -7,6 +7,7 @@ else sees it.
 from __future__ import annotations
 
 import functools
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,6 +20,8 @@ from . import native
 _NO_VALUE = "no such value"
 _UNSUPPORTED = "still_unsupported"
 _MATRIX_SIZE = 16
+_ENOUGH = 3
+_ANOTHER_ID = 3
 # PyMeshLab's exceptions have no common base.
 _REFUSALS = (pymeshlab.PyMeshLabException, pymeshlab.InvalidEnumException, RuntimeError)
 
@@ -62,6 +65,35 @@ def brought_up_to_date(name: str, recorded: tuple[KnownParam, ...]) -> tuple[Kno
     return tuple(by_keyword.get(key) or _param(name, key, value) for key, value in values.items())
 
 
+def partners(name: str, keywords: Iterable[str], count: int, current: int) -> dict[str, int]:
+    """The places, in a set of `count` meshes, of those that a native filter takes by itself.
+
+    Parameters
+    ----------
+    name : str
+    keywords : iterable of str
+        Its parameters that are meshes.
+    count, current : int
+        How many meshes there are, and the place of the current one, from 0.
+    """
+    # It is the current one, or one of the first two; so the third stands for all after it.
+    place = min(current, _ENOUGH - 1)
+    values = _defaults_among(name, min(count, _ENOUGH), place)
+    found = {key: values[key] for key in keywords if key in values}
+    return {key: current if value == place else value for key, value in found.items()}
+
+
+@functools.cache
+def _defaults_among(name: str, count: int, current: int) -> dict[str, Any]:
+    ms = _triangles(count)
+    native.make_current(ms, current)
+    try:
+        with native.muted():
+            return native.defaults(ms, name)
+    except _REFUSALS:
+        return {}
+
+
 def _values(name: str) -> dict[str, Any]:
     """The filter's defaults; empty if PyMeshLab can't tell them either."""
     try:
@@ -73,9 +105,11 @@ def _values(name: str) -> dict[str, Any]:
 
 def _param(name: str, key: str, value: Any) -> KnownParam:
     choices: tuple[str, ...] = ()
-    kind = _kind(key, value)
+    kind = _kind(value)
     # Enums look like numbers, and percentages like floats; what they refuse gives them away.
-    if kind == "RichInt":
+    if kind == "RichInt" and _is_layer(name, key, value):
+        kind = "RichMesh"
+    elif kind == "RichInt":
         refusal = _refusal(name, **{key: _NO_VALUE})
         if isinstance(refusal, pymeshlab.InvalidEnumException):
             kind, choices = "RichEnum", _choices(str(refusal))
@@ -84,11 +118,18 @@ def _param(name: str, key: str, value: Any) -> KnownParam:
     return KnownParam(key, key, kind, choices, required=False, guessed=True)
 
 
-def _kind(key: str, value: Any) -> str:
+def _is_layer(name: str, key: str, value: Any) -> bool:
+    """Whether a default is the id of the mesh, in two sets where that has different ids."""
+    with native.muted():
+        later = native.defaults(_asked_later(), name)
+    return (value, later.get(key)) == tuple(native.ids(s)[0] for s in (_asked(), _asked_later()))
+
+
+def _kind(value: Any) -> str:
     if isinstance(value, bool):
         return "RichBool"
     if isinstance(value, int):
-        return "RichMesh" if key.endswith("mesh") else "RichInt"
+        return "RichInt"
     if isinstance(value, float):
         return "RichFloat"
     if isinstance(value, pymeshlab.Color):
@@ -115,9 +156,24 @@ def _choices(refusal: str) -> tuple[str, ...]:
 
 @functools.cache
 def _asked() -> MeshSet:
-    """A set with a triangle that has what some filters need to be asked."""
+    return _triangles(1)
+
+
+@functools.cache
+def _asked_later() -> MeshSet:
+    """The same as `_asked`, but the id of its mesh is another."""
+    ms = _triangles(_ANOTHER_ID + 1)
+    for mesh_id in range(_ANOTHER_ID):
+        native.make_current(ms, mesh_id)
+        native.apply(ms, "delete_current_mesh")
+    return ms
+
+
+def _triangles(count: int) -> MeshSet:
+    """A set of triangles that have what some filters need to be asked."""
     ms = MeshSet()
     corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
     values = {"v_scalar_array": np.arange(3.0), "f_scalar_array": np.arange(1.0)}
-    native.add(ms, pymeshlab.Mesh(corners, np.array([[0, 1, 2]]), **values))
+    for _ in range(count):
+        native.add(ms, pymeshlab.Mesh(corners, np.array([[0, 1, 2]]), **values))
     return ms

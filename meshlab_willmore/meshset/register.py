@@ -2,23 +2,23 @@
 
 PyMeshLab's methods all end in ``MeshSet.apply_filter``, and its lists come from four functions:
 replacing these makes our filters known wherever the native ones are. What counts the layers of a
-set, or goes through them, is replaced so that it leaves out parked layers (see `layers`).
+set, goes through them, or takes or tells ids is replaced as well, see `ids`.
 """
 
 from __future__ import annotations
 
 import functools
 import os
-import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
+from pathlib import Path
 from typing import Any
 
 import pymeshlab
 from pymeshlab import MeshSet
 
 from ..mlx.write import write
-from . import layers, native, numbering, recording
+from . import ids, layers, native, native_calls, numbering, recording, status
 from .apply import apply, values_of
 from .check import resolve
 from .filter import Filter
@@ -58,7 +58,11 @@ def register() -> None:
             f"PyMeshLab already has {', '.join(taken)}; meshlab_willmore does not replace native "
             "filters. Use a version of meshlab_willmore that fits this PyMeshLab."
         )
-    for owner, wrappers in ((MeshSet, _METHODS), (pymeshlab, _FUNCTIONS)):
+    for owner, wrappers in (
+        (MeshSet, {**ids.SET_METHODS, **_METHODS}),
+        (pymeshlab.Mesh, ids.MESH_METHODS),
+        (pymeshlab, _FUNCTIONS),
+    ):
         for name, make in wrappers.items():
             _wrap(owner, name, make)
     setattr(MeshSet.apply_filter, _UNDO, unregister)
@@ -115,10 +119,11 @@ def _wrap_apply_filter(wrapped: Callable) -> Callable:
             recording.note_ours(self, filter_, values)
             return returned
         name = args[0] if args else kwargs.get("filter_name")
-        kwargs = numbering.redirected(self, kwargs)
-        with layers.parked_aside(self, name, kwargs) as given:
+        moved = numbering.has_moved(self)
+        with native_calls.prepared(self, name, kwargs) if moved else nullcontext(kwargs) as given:
             exact = recording.exact_values(self, name, given)
-            returned = wrapped(self, *args, **given)
+            with native.spoken(self):
+                returned = wrapped(self, *args, **given)
         recording.note_native(self, str(name), exact)
         return returned
 
@@ -128,10 +133,11 @@ def _wrap_apply_filter(wrapped: Callable) -> Callable:
 def _wrap_filter_parameter_values(wrapped: Callable) -> Callable:
     def filter_parameter_values(self: MeshSet, *args: Any, **kwargs: Any) -> dict[str, Any]:
         filter_ = _ours(args, "arg0", kwargs)
-        if filter_ is None:
-            partners = layers.partners_beside_parked(self, args[0] if args else None, kwargs)
-            return wrapped(self, *args, **{**partners, **kwargs})
-        return values_of(self, filter_, kwargs)
+        if filter_ is not None:
+            return values_of(self, filter_, kwargs)
+        if len(args) == 1 and numbering.has_moved(self):
+            return native_calls.parameter_values(self, wrapped, args[0], kwargs)
+        return wrapped(self, *args, **kwargs)
 
     return filter_parameter_values
 
@@ -157,52 +163,51 @@ def _wrap_set_verbosity(field: str) -> Callable[[Callable], Callable]:
     return make
 
 
-# --- layers ------------------------------------------------------------------------------------
+# --- files, and what prints ----------------------------------------------------------------------
+
+# Functions of PyMeshLab that print, and know nothing of filters.
+_PRINTING = ("print_plugin_filter_list", "print_plugin_list", "print_pymeshlab_version")
 
 
-def _wrap_iter(_: Callable) -> Callable:
-    """Go through the layers that are there when the loop begins, and still there at their turn.
+def _printing(wrapped: Callable) -> Callable:
+    """The same, in order with all else that is printed."""
 
-    PyMeshLab's own iterator points to freed memory once its layer is deleted, and a loop in which
-    each step replaces a layer would never end.
-    """
+    @functools.wraps(wrapped)
+    def printing(*args: Any, **kwargs: Any) -> None:
+        with native.in_order():
+            wrapped(*args, **kwargs)
 
-    def iterate(self: MeshSet) -> Iterator[pymeshlab.Mesh]:
-        there = layers.visible_ids(self)
-        return (self.mesh(i) for i in there if self.mesh_id_exists(i))
-
-    return iterate
+    return printing
 
 
-def _wrap_count(wrapped: Callable) -> Callable:
-    def count(self: MeshSet) -> int:
-        return wrapped(self) - len(layers.parked(self))
+def _wrap_print_status(wrapped: Callable) -> Callable:
+    def print_status(self: MeshSet) -> None:
+        if numbering.has_moved(self):
+            print(status.status(self, native.printed(lambda: wrapped(self))), end="")
+        else:
+            wrapped(self)
 
-    return count
-
-
-def _wrap_clear(wrapped: Callable) -> Callable:
-    def clear(self: MeshSet) -> None:
-        wrapped(self)
-        layers.forget(self)
-
-    return clear
+    return _printing(print_status)
 
 
-def _wrap_set_current_mesh(wrapped: Callable) -> Callable:
-    def set_current_mesh(self: MeshSet, new_curr_id: int) -> None:
-        wrapped(self, new_curr_id)
-        layers.give_back(self, new_curr_id)
+def _wrap_file_method(wrapped: Callable) -> Callable:
+    """PyMeshLab's own, which leaves the working folder as it is also where it fails."""
 
-    return set_current_mesh
+    def file_method(self: MeshSet, *args: Any, **kwargs: Any) -> None:
+        with native.kept_working_folder(), native.spoken(self):
+            wrapped(self, *args, **kwargs)
+
+    return file_method
 
 
-def _wrap_set_mesh_visibility(wrapped: Callable) -> Callable:
-    def set_mesh_visibility(self: MeshSet, id: int, visibility: bool) -> None:
-        layers.give_back(self, id)
-        wrapped(self, id, visibility)
+def _wrap_save_project(wrapped: Callable) -> Callable:
+    def save_project(self: MeshSet, file_name: str) -> None:
+        with native.kept_working_folder(), native.spoken(self):
+            wrapped(self, file_name)
+        if numbering.has_moved(self) and os.path.isfile(_path(file_name)):
+            status.reorder_project(self, Path(_path(file_name)))
 
-    return set_mesh_visibility
+    return save_project
 
 
 # --- filter scripts ----------------------------------------------------------------------------
@@ -211,9 +216,10 @@ def _wrap_set_mesh_visibility(wrapped: Callable) -> Callable:
 def _wrap_apply_filter_script(wrapped: Callable) -> Callable:
     def apply_filter_script(self: MeshSet) -> None:
         layers.sweep(self)
-        # PyMeshLab would reach parked layers.
-        if not recording.holds_more(self) and not layers.parked(self):
-            wrapped(self)
+        # PyMeshLab would go by its own ids and order, and reach parked layers.
+        if not recording.holds_more(self) and not numbering.has_moved(self):
+            with native.spoken(self):
+                wrapped(self)
             return
         with _as_pymeshlab_error():
             there = [numbering.logical_id(self, i) for i in layers.visible_ids(self)]
@@ -262,7 +268,7 @@ def _wrap_print_filter_script(wrapped: Callable) -> Callable:
         else:
             wrapped(self)
 
-    return print_filter_script
+    return _printing(print_filter_script)
 
 
 def _wrap_clear_filter_script(wrapped: Callable) -> Callable:
@@ -297,7 +303,7 @@ def _wrap_print_filter_list(_: Callable) -> Callable:
         for name in pymeshlab.filter_list():
             print(f"\t{name}")
 
-    return print_filter_list
+    return _printing(print_filter_list)
 
 
 def _wrap_print_filter_parameter_list(wrapped: Callable) -> Callable:
@@ -313,7 +319,7 @@ def _wrap_print_filter_parameter_list(wrapped: Callable) -> Callable:
         if not filter_.parameters:
             print("\tNone.")
 
-    return print_filter_parameter_list
+    return _printing(print_filter_parameter_list)
 
 
 def _wrap_search(wrapped: Callable) -> Callable:
@@ -323,33 +329,32 @@ def _wrap_search(wrapped: Callable) -> Callable:
             text = f"{filter_.name} {filter_.meshlab_name} {filter_.summary}".lower()
             if words and all(word in text for word in words):
                 print(f"{filter_.name} : {filter_.summary}")
-        sys.stdout.flush()
         wrapped(search_key_word)
 
-    return search
+    return _printing(search)
 
 
 _METHODS: dict[str, Callable[[Callable], Callable]] = {
     "__init__": _wrap_init,
-    "__iter__": _wrap_iter,
-    "__len__": _wrap_count,
     "apply_filter": _wrap_apply_filter,
     "apply_filter_script": _wrap_apply_filter_script,
-    "clear": _wrap_clear,
     "clear_filter_script": _wrap_clear_filter_script,
     "filter_parameter_values": _wrap_filter_parameter_values,
     "load_filter_script": _wrap_load_filter_script,
-    "mesh_number": _wrap_count,
-    "number_meshes": _wrap_count,
+    "load_new_mesh": _wrap_file_method,
+    "load_new_raster": _wrap_file_method,
+    "load_project": _wrap_file_method,
     "print_filter_script": _wrap_print_filter_script,
+    "print_status": _wrap_print_status,
+    "save_current_mesh": _wrap_file_method,
     "save_filter_script": _wrap_save_filter_script,
-    "set_current_mesh": _wrap_set_current_mesh,
-    "set_mesh_visibility": _wrap_set_mesh_visibility,
+    "save_project": _wrap_save_project,
     "set_parameter_verbosity": _wrap_set_verbosity("parameters"),
     "set_verbosity": _wrap_set_verbosity("all"),
 }
 _FUNCTIONS: dict[str, Callable[[Callable], Callable]] = {
     "filter_list": _wrap_filter_list,
+    **dict.fromkeys(_PRINTING, _printing),
     "print_filter_list": _wrap_print_filter_list,
     "print_filter_parameter_list": _wrap_print_filter_parameter_list,
     "search": _wrap_search,

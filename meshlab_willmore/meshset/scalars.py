@@ -51,12 +51,12 @@ def _transfer(ms: MeshSet, scalar: np.ndarray) -> None:
     The transfer moves both layers by their transforms and back, which costs last digits: it runs
     without one.
     """
-    target = ms.current_mesh_id()
+    target = native.id_of(native.current_mesh(ms))
     transform = ms.current_mesh().transform_matrix()
     vertices = ms.current_mesh().vertex_matrix()
     helper = pymeshlab.Mesh(vertices, v_scalar_array=scalar)
     native.add(ms, helper, "Willmore energy")
-    source = ms.current_mesh_id()
+    source = native.id_of(native.current_mesh(ms))
     numbering.note_used(ms, source)
     native.make_current(ms, target)
     try:

@@ -68,7 +68,7 @@ def test_other_meshes_keep_their_ids_and_data(bumpy):
         bumpy.add_mesh(mesh, set_as_current=False)
     returned = bumpy.apply_filter(FLIP)
     assert len(bumpy) == 4
-    assert returned["mesh_id"] == bumpy.current_mesh_id() == 4
+    assert returned["mesh_id"] == bumpy.current_mesh_id() == 0
     for n, mesh in enumerate(others):
         np.testing.assert_array_equal(bumpy.mesh(n + 1).face_matrix(), mesh.face_matrix())
 

@@ -1,10 +1,10 @@
-"""Ids of layers beside our filters: in the set, and as filter scripts count them."""
+"""Ids of layers beside our filters: as callers and filter scripts count them, and PyMeshLab's."""
 
 import numpy as np
 import pymeshlab
 import pytest
 
-from meshlab_willmore.meshset import exchange, numbering
+from meshlab_willmore.meshset import exchange, native, numbering
 from tests import meshes
 from tests.meshset.conftest import FLIP, set_of
 
@@ -43,45 +43,48 @@ def test_a_lone_mesh_with_a_large_id_gets_a_new_one(bumpy, monkeypatch):
         next_id(bumpy)
         bumpy.delete_current_mesh()
     bumpy.set_current_mesh(0)
-    assert bumpy.apply_filter(FLIP)["mesh_id"] == 6
-    assert numbering.logical_id(bumpy, 6) == 0
-    new = next_id(bumpy)
-    assert numbering.logical_id(bumpy, new) == 5
+    assert bumpy.apply_filter(FLIP)["mesh_id"] == 0
+    assert native.ids(bumpy) == [6]
+    assert bumpy.current_mesh().id() == bumpy.current_mesh_id() == 0
+    assert next_id(bumpy) == 5
 
 
 def test_a_replaced_layer_keeps_its_logical_id():
     ms = two()
-    first = ms.apply_filter(FLIP)["mesh_id"]
-    assert (first, numbering.logical_id(ms, first), numbering.physical_id(ms, 0)) == (2, 0, 2)
+    assert ms.apply_filter(FLIP)["mesh_id"] == 0
+    assert (native.ids(ms), numbering.logical_id(ms, 2)) == ([1, 2], 0)
     ms.set_current_mesh(1)
-    second = ms.apply_filter(FLIP)["mesh_id"]
-    assert (numbering.logical_id(ms, second), numbering.physical_id(ms, 1)) == (1, second)
-    ms.set_current_mesh(first)
-    again = ms.apply_filter(FLIP, energy="willmore")["mesh_id"]
-    assert numbering.physical_id(ms, 0) == again
+    assert ms.apply_filter(FLIP)["mesh_id"] == 1
+    assert (native.ids(ms), numbering.logical_id(ms, 3)) == ([2, 3], 1)
+    ms.set_current_mesh(0)
+    assert ms.apply_filter(FLIP, energy="willmore")["mesh_id"] == 0
+    assert (native.ids(ms), numbering.physical_id(ms, 0)) == ([3, 4], 4)
 
 
 def test_layers_made_after_flips_are_counted_as_if_there_were_none():
     ms = two()
     ms.apply_filter(FLIP)
-    made = next_id(ms)
-    assert (made, numbering.logical_id(ms, made), numbering.physical_id(ms, 2)) == (3, 2, 3)
+    assert next_id(ms) == 2
+    assert numbering.physical_id(ms, 2) == 3
 
 
 def test_the_helper_layer_of_the_scalar_is_not_counted():
     ms = two()
     ms.apply_filter(SCALAR)
-    made = next_id(ms)
-    assert (made, numbering.logical_id(ms, made)) == (3, 2)
-    assert numbering.physical_id(ms, 3) is None
+    assert next_id(ms) == 2
+    assert not ms.mesh_id_exists(3)
 
 
 def test_the_mesh_before_the_flips_is_not_what_its_id_means_while_it_is_held():
     ms = two()
     held = ms.current_mesh()
-    flipped = ms.apply_filter(FLIP)["mesh_id"]
+    before = held.face_matrix()
+    ms.apply_filter(FLIP)
     assert held.id() == 0
-    assert numbering.physical_id(ms, 0) == flipped
+    assert ms.mesh(0) is not held
+    assert (ms.mesh(0).face_matrix() != before).any()
+    ms.delete_current_mesh()
+    assert not ms.mesh_id_exists(0), "not the one before, either"
 
 
 def test_an_emptied_set_starts_anew():
@@ -106,8 +109,8 @@ def test_a_load_that_fails_is_not_counted(monkeypatch):
     with pytest.raises(pymeshlab.PyMeshLabException, match="no room"):
         ms.apply_filter(FLIP)
     monkeypatch.undo()
-    made = next_id(ms)
-    assert (made, numbering.logical_id(ms, made)) == (3, 2)
+    assert next_id(ms) == 2
+    assert native.ids(ms) == [0, 1, 3]
 
 
 def test_native_filters_find_a_replaced_mesh_by_its_old_id():

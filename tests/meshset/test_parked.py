@@ -85,7 +85,8 @@ def test_an_exception_that_is_kept_does_not_hold_the_mesh(bumpy, fail):
 def test_a_held_mesh_is_parked_hidden_and_not_counted(bumpy):
     held = bumpy.current_mesh()
     new_id = bumpy.apply_filter(FLIP)["mesh_id"]
-    assert new_id == bumpy.current_mesh_id() != held.id()
+    assert new_id == bumpy.current_mesh_id() == held.id()
+    assert bumpy.current_mesh() is not held
     assert not held.is_visible()
     assert bumpy.current_mesh().is_visible()
     assert bumpy.current_mesh().label() == held.label() == "mesh"
@@ -101,7 +102,7 @@ def test_a_parked_layer_goes_when_it_is_free(bumpy):
     del held
     bumpy.meshing_remove_duplicate_vertices()
     assert native.ids(bumpy) == [1]
-    assert bumpy.current_mesh_id() == 1
+    assert bumpy.current_mesh_id() == 0
 
 
 def test_sweeping_leaves_the_script_alone(bumpy):
@@ -115,35 +116,41 @@ def test_sweeping_leaves_the_script_alone(bumpy):
     assert script_of(bumpy) == before
 
 
-def take_by_making_it_current(ms):
-    ms.set_current_mesh(0)
-    ms.set_current_mesh(1)
+def test_a_held_mesh_can_be_added_as_a_layer_like_others(bumpy):
+    held = bumpy.current_mesh()
+    faces = held.face_matrix()
+    bumpy.apply_filter(FLIP)
+    bumpy.add_mesh(held, "before")
+    assert [mesh.id() for mesh in bumpy] == [0, 1]
+    assert (bumpy.mesh(1).face_matrix() == faces).all()
+    assert bumpy.is_mesh_visible(1)
 
 
-def take_by_showing_it(ms):
-    ms.set_mesh_visibility(0, True)
-
-
-@pytest.mark.parametrize("take", [take_by_making_it_current, take_by_showing_it])
-def test_a_layer_that_the_user_takes_back_is_one_like_others(bumpy, take):
+def test_the_id_of_a_held_mesh_hides_and_shows_the_flipped_one(bumpy):
     held = bumpy.current_mesh()
     bumpy.apply_filter(FLIP)
-    take(bumpy)
-    assert held.is_visible()
-    del held
-    bumpy.meshing_remove_duplicate_vertices()
-    assert native.ids(bumpy) == [0, 1]
-    assert len(bumpy) == 2
+    bumpy.set_mesh_visibility(held.id(), False)
+    assert not bumpy.is_current_mesh_visible()
+    bumpy.set_mesh_visibility(held.id(), True)
+    assert bumpy.is_mesh_visible(held.id())
+    assert not held.is_visible()
 
 
-def test_a_parked_layer_that_the_user_deleted_is_forgotten(bumpy):
+def test_a_set_whose_last_layer_is_deleted_is_empty_though_a_mesh_is_held(bumpy):
     held = bumpy.current_mesh()
     bumpy.apply_filter(FLIP)
-    bumpy.set_current_mesh(held.id())
-    del held
     bumpy.delete_current_mesh()
-    bumpy.meshing_remove_duplicate_vertices()
-    assert len(bumpy) == 1
+    assert (len(bumpy), list(bumpy), bumpy.mesh_id_exists(0)) == (0, [], False)
+    for ask in (bumpy.current_mesh, bumpy.current_mesh_id, bumpy.is_current_mesh_visible):
+        with pytest.raises(pymeshlab.PyMeshLabException, match="no current Mesh"):
+            ask()
+    for name in ("meshing_remove_duplicate_vertices", FLIP):
+        for call in (bumpy.apply_filter, bumpy.filter_parameter_values):
+            with pytest.raises(pymeshlab.PyMeshLabException, match="at least one mesh"):
+                call(name)
+    assert held.face_number() == 596
+    bumpy.create_cube()
+    assert (bumpy.current_mesh_id(), len(bumpy)) == (1, 1)
 
 
 def test_clear_forgets_parked_layers_with_all_others(bumpy):
@@ -163,11 +170,12 @@ def test_deleting_hidden_layers_spares_parked_ones(bumpy):
     faces = held.face_matrix()
     bumpy.apply_filter(FLIP)
     bumpy.add_mesh(pymeshlab.Mesh(*meshes.tetrahedron()), set_as_current=False)
-    bumpy.set_mesh_visibility(2, False)
+    bumpy.set_mesh_visibility(1, False)
     bumpy.delete_non_visible_meshes()
     many_meshes(bumpy)
     np.testing.assert_array_equal(held.face_matrix(), faces)
-    assert not bumpy.mesh_id_exists(2)
+    assert native.ids(bumpy)[:2] == [0, 1]
+    assert not bumpy.mesh_id_exists(1)
     assert not held.is_visible()
 
 
@@ -185,8 +193,9 @@ def test_native_filters_take_no_parked_layer_for_a_partner():
     name = "get_hausdorff_distance"
     assert holding.filter_parameter_values(name) == free.filter_parameter_values(name)
     assert holding.apply_filter(name) == free.apply_filter(name)
+    assert held.id() == holding.current_mesh_id()
     mine = holding.filter_parameter_values(name, targetmesh=held.id())
-    assert mine["targetmesh"] == held.id(), "the caller may name it"
+    assert mine["targetmesh"] == held.id()
 
 
 def test_parked_layers_are_not_merged():
@@ -239,8 +248,8 @@ def test_a_deleted_layer_does_not_hand_over_to_a_parked_one(bumpy):
     bumpy.apply_filter(FLIP)
     bumpy.add_mesh(pymeshlab.Mesh(*meshes.tetrahedron()))
     bumpy.delete_current_mesh()
-    assert held.id() == 0
-    assert bumpy.current_mesh_id() == 1
+    assert bumpy.current_mesh() is not held
+    assert bumpy.current_mesh_id() == 0
 
 
 @pytest.mark.parametrize("more", [(), ("apply_coord_taubin_smoothing",)])

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from pymeshlab import MeshSet
 
-from . import layers, native
+from . import native, numbering
 from .keywords import keyword_of
 from .probe import KnownParam
 
@@ -83,7 +83,7 @@ def play(ms: MeshSet, name: str, given: Mapping[str, Any]) -> dict[str, Any]:
         Empty, as of a filter that returns nothing.
     """
     if name == _CURRENT.name and "mesh" in given:
-        native.make_current(ms, given["mesh"])
+        native.make_current(ms, numbering.physical_id(ms, given["mesh"]))
     if name == _VISIBILITY.name:
         for mesh_id in _chosen(ms, given):
             native.show(ms, mesh_id, given.get("ismeshvisible", True))
@@ -91,7 +91,9 @@ def play(ms: MeshSet, name: str, given: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _chosen(ms: MeshSet, given: Mapping[str, Any]) -> list[int]:
+    """The physical ids of the layers that a step is about."""
     part = given.get("lname", "")
     if part:
-        return [i for i in layers.visible_ids(ms) if part in ms.mesh(i).label()]
-    return [given.get("layer", ms.current_mesh_id())]
+        return [native.id_of(mesh) for mesh in ms if part in mesh.label()]
+    chosen = numbering.physical_id(ms, given["layer"]) if "layer" in given else None
+    return [native.id_of(native.current_mesh(ms)) if chosen is None else chosen]

@@ -13,6 +13,7 @@ import functools
 import inspect
 import os
 import sys
+import tempfile
 import weakref
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager

@@ -44,7 +44,9 @@ def apply(ms: MeshSet, filter_: Filter, values: dict[str, Any]) -> dict[str, Any
     with _turn:
         verbosity = native.verbosity(ms)
         if verbosity.all or verbosity.parameters:
-            print(f"\nApplying filter {filter_.name} with the following parameters:\n{values}\n")
+            with native.in_order():
+                print(f"\nApplying filter {filter_.name} with the following parameters:")
+                print(f"{values}\n")
         try:
             returned, log = _run(ms, filter_, values)
         except Exception as error:
@@ -54,8 +56,9 @@ def apply(ms: MeshSet, filter_: Filter, values: dict[str, Any]) -> dict[str, Any
                 f"Failed to apply filter: {filter_.name}\nDetails: {error}"
             ) from error
         if verbosity.all:
-            print(f"LOG: 2 {log}\nLOG: 2 {filter_.name} applied!    [ 100% ]", file=sys.stderr)
-            print()
+            with native.in_order():
+                print(f"LOG: 2 {log}\nLOG: 2 {filter_.name} applied!    [ 100% ]", file=sys.stderr)
+                print()
         return returned
 
 

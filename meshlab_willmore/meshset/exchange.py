@@ -11,8 +11,6 @@ mesh in a set of its own before the user's set is touched, and then the whole.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -69,7 +67,8 @@ def give(ms: pymeshlab.MeshSet, old: Snapshot, new: Snapshot) -> None:
         _write_images(path.parent, new)
         _write(part_path, part)
         _write(path, new)
-        with _before_the_users_files(path.parent, new.ply.textures):
+        with native.kept_working_folder():
+            _leave_the_users_files(path.parent, new.ply.textures)
             _load_whole(pymeshlab.MeshSet(), part_path, part)
             layers.replace_current(
                 ms,
@@ -190,21 +189,13 @@ def _mesh_path(folder: Path, textures: tuple[str, ...]) -> Path:
     return folder.joinpath(*["mesh"] * upwards, MESH_FILE)
 
 
-@contextmanager
-def _before_the_users_files(folder: Path, textures: tuple[str, ...]) -> Iterator[None]:
-    """Work in `folder` if the user's working directory has files of the textures' names.
+def _leave_the_users_files(folder: Path, textures: tuple[str, ...]) -> None:
+    """Go to `folder` if the user's working folder has files of the textures' names.
 
     PyMeshLab looks for textures there first.
     """
-    if not any(Path(name).exists() for name in _file_names(textures).values()):
-        yield
-        return
-    before = Path.cwd()
-    os.chdir(folder)
-    try:
-        yield
-    finally:
-        os.chdir(before)
+    if any(os.path.exists(name) for name in _file_names(textures).values()):
+        os.chdir(folder)
 
 
 def _save_image(image: pymeshlab.Image, path: Path) -> None:

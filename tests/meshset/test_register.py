@@ -1,6 +1,9 @@
 """The filters stand among the native ones in everything that PyMeshLab lists and prints."""
 
+import contextlib
 import inspect
+import os
+import re
 import subprocess
 import sys
 
@@ -163,6 +166,100 @@ def test_parameter_verbosity_prints_parameters_only(bumpy, capfd):
     assert captured.err == ""
 
 
+PRINTING = """
+import pymeshlab, meshlab_willmore
+ms = pymeshlab.MeshSet()
+ms.create_cube()
+print("-1-")
+ms.print_filter_script()
+print("-2-")
+ms.get_willmore_measures()
+ms.print_filter_script()
+print("-3-")
+pymeshlab.print_filter_parameter_list("create_cube")
+print("-4-")
+pymeshlab.print_filter_parameter_list("get_willmore_measures")
+print("-5-")
+ms.print_status()
+print("-6-")
+pymeshlab.search("willmore")
+print("-7-")
+ms.set_verbosity(True)
+ms.create_cube(size=2.0)
+print("-8-")
+ms.get_willmore_measures()
+print("-9-")
+ms.save_current_mesh("cube.ply")
+ms.load_new_mesh("cube.ply")
+ms.set_verbosity(False)
+print("-10-")
+"""
+NEXT = "(?s:.*?)"
+IN_ORDER = NEXT.join(
+    [
+        "^-1-\nFilter Script Size : 1\n",
+        "box_cube",
+        "-2-\nFilter Script Size : 2\n",
+        "box_cube",
+        "willmore_measures",
+        "-3-",
+        "create_cube filter",
+        "-4-\nget_willmore_measures filter",
+        "-5-\nNumber meshes: 1",
+        "-6-\n.*willmore",
+        "-7-\n\nApplying filter create_cube with the following parameters:\n{'size': 2.0}\n",
+        "-8-\n\nApplying filter get_willmore_measures with the following parameters:\n{}\n",
+        "-9-\n\nSaving file .*cube.ply with the following parameters:\n{'binary': True}\n",
+        "\nLoading file .*cube.ply with the following parameters:\n{}\n",
+        "-10-\n$",
+    ]
+)
+
+
+def buffered():
+    return {key: value for key, value in os.environ.items() if key != "PYTHONUNBUFFERED"}
+
+
+def in_a_pipe(args, folder):
+    return subprocess.run(
+        args, stdout=subprocess.PIPE, text=True, cwd=folder, env=buffered(), check=True
+    ).stdout
+
+
+def on_a_terminal(args, folder):
+    ours, theirs = os.openpty()
+    with subprocess.Popen(args, stdout=theirs, cwd=folder, env=buffered()) as process:
+        os.close(theirs)
+        text = b""
+        # At its end a terminal is an error.
+        with contextlib.suppress(OSError):
+            while part := os.read(ours, 1 << 16):
+                text += part
+    os.close(ours)
+    assert process.returncode == 0
+    return text.decode().replace("\r\n", "\n")
+
+
+@pytest.mark.parametrize("run", [in_a_pipe, on_a_terminal])
+def test_what_python_and_pymeshlab_print_comes_in_order(run, tmp_path):
+    assert re.search(IN_ORDER, run([sys.executable, "-c", PRINTING], tmp_path))
+
+
+@pytest.mark.parametrize("how", ["sys.stdout = None", "sys.stdout.close()"])
+def test_a_program_without_standard_output_can_print(how):
+    code = f"""
+import sys, pymeshlab, meshlab_willmore
+{how}
+ms = pymeshlab.MeshSet()
+ms.create_cube()
+ms.print_filter_script()
+if sys.stdout is None:
+    ms.set_verbosity(True)
+    ms.get_willmore_measures()
+"""
+    subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
+
+
 @pytest.mark.parametrize("filter_", FILTERS, ids=NAMES)
 def test_docstrings_tell_every_parameter(filter_):
     method = getattr(pymeshlab.MeshSet, filter_.name)
@@ -181,6 +278,36 @@ def test_native_methods_keep_their_docstrings():
     assert "filter" in pymeshlab.MeshSet.apply_filter.__doc__
     assert pymeshlab.MeshSet.apply_filter.__name__ == "apply_filter"
     assert pymeshlab.filter_list.__doc__
+
+
+# --- the working folder ------------------------------------------------------------------------
+
+
+def test_a_file_that_cannot_be_read_leaves_the_working_folder(tmp_path, monkeypatch, bumpy):
+    (tmp_path / "scans").mkdir()
+    monkeypatch.chdir(tmp_path)
+    for suffix in ("ply", "obj", "off"):
+        (tmp_path / "scans" / f"broken.{suffix}").write_text("no mesh")
+        with pytest.raises(pymeshlab.PyMeshLabException):
+            bumpy.load_new_mesh(f"scans/broken.{suffix}")
+        assert os.getcwd() == str(tmp_path)
+    bumpy.save_current_mesh("whole.ply")
+    with pytest.raises(pymeshlab.PyMeshLabException):
+        bumpy.load_project("scans/broken.ply")
+    bumpy.load_new_mesh(file_name="whole.ply")
+    assert bumpy.current_mesh().vertex_number() == 300
+
+
+def test_flips_work_in_a_folder_that_is_gone(tmp_path, monkeypatch, bumpy):
+    here = tmp_path / "here"
+    here.mkdir()
+    monkeypatch.chdir(here)
+    here.rmdir()
+    assert bumpy.apply_filter(FLIP)["flips"] > 0
+    bumpy.compute_scalar_by_willmore_energy_per_vertex()
+    with pytest.raises(FileNotFoundError):
+        os.getcwd()
+    os.chdir(tmp_path)
 
 
 # --- registering -------------------------------------------------------------------------------

@@ -18,12 +18,13 @@ import numpy as np
 import pymeshlab
 
 from ..machine import temporary_folder
-from . import layers, native, ply
+from . import layers, native, numbering, ply
 from .sides import carry_side_bits
 from .snapshot import (
     ATTRIBUTE_METHODS,
     MESH_FILE,
     Snapshot,
+    has_pixels,
     is_set_by_filter,
     plain_name,
     selected,
@@ -40,6 +41,8 @@ _READABLE = {"radius": np.dtype("<f4")}
 # Qt's quality of a PNG is how little it is compressed.
 _FASTEST = 100
 _BYTES_OF_PIXEL = 3
+_SAVED_IMAGE = "meshlab_willmore.png"
+_ONE_PIXEL = b"P1 1 1 0\n"
 
 
 def give(ms: pymeshlab.MeshSet, old: Snapshot, new: Snapshot) -> None:
@@ -75,6 +78,7 @@ def give(ms: pymeshlab.MeshSet, old: Snapshot, new: Snapshot) -> None:
                 lambda target: _load_whole(target, path, new),
                 lambda target: _reload(target, path, old),
                 old.identity,
+                by_copies=new.is_without_pixels,
             )
 
 
@@ -142,7 +146,7 @@ def _write(path: Path, snapshot: Snapshot) -> None:
     carried = mesh._replace(
         vertices=_with_columns(mesh.vertices, normals),
         faces=_with_columns(mesh.faces, {}),
-        textures=tuple(_file_names(mesh.textures).values()),
+        textures=tuple(map(_file_names(mesh.textures).__getitem__, mesh.textures)),
     )
     ply.write(path, carried)
 
@@ -172,8 +176,7 @@ def _write_images(folder: Path, snapshot: Snapshot) -> None:
     """The images that the PLY names."""
     folder.mkdir(parents=True, exist_ok=True)
     for name, file_name in _file_names(snapshot.ply.textures).items():
-        if name in snapshot.images:
-            _save_image(snapshot.images[name], folder / file_name)
+        _write_image(folder / file_name, name, snapshot)
 
 
 def _file_names(textures: tuple[str, ...]) -> dict[str, str]:
@@ -198,10 +201,18 @@ def _leave_the_users_files(folder: Path, textures: tuple[str, ...]) -> None:
         os.chdir(folder)
 
 
+def _write_image(path: Path, name: str, snapshot: Snapshot) -> None:
+    """The image of a texture; one pixel if no texture has any, for PyMeshLab to keep its name."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if snapshot.is_without_pixels:
+        path.write_bytes(_ONE_PIXEL)
+    elif name in snapshot.images and has_pixels(snapshot.images[name]):
+        _save_image(snapshot.images[name], path)
+
+
 def _save_image(image: pymeshlab.Image, path: Path) -> None:
     """Save without loss; Qt tells an image's format from its content, not from its name."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    lossless = path.with_name(path.name + ".png")
+    lossless = path.with_name(_SAVED_IMAGE)
     image.save(str(lossless), _FASTEST)
     lossless.replace(path)
 
@@ -219,12 +230,10 @@ def _load_whole(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
 
 def _load(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
     """Load the mesh of `_write` as a new current mesh, as a native filter leaves one."""
-    native.load(ms, path)
-    textures = snapshot.ply.textures
-    if is_set_by_filter(textures) and textures[0] in snapshot.images:
-        image = path.with_name(textures[0])
-        _save_image(snapshot.images[textures[0]], image)
-        native.apply(ms, "set_texture_per_mesh", textname=str(image))
+    if snapshot.is_without_pixels:
+        _load_without_pixels(ms, path, snapshot)
+    else:
+        _load_with_images(ms, path, snapshot)
     if selected(snapshot.ply.vertices).any() or selected(snapshot.ply.faces).any():
         # MeshLab counts what is selected after filters only; by it, others choose their defaults.
         native.apply(ms, "apply_normal_normalization_per_vertex")
@@ -232,6 +241,32 @@ def _load(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
     for attribute in snapshot.attributes:
         _, adder = ATTRIBUTE_METHODS[attribute.kind]
         getattr(mesh, adder)(attribute.values, attribute.name)
+
+
+def _load_with_images(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
+    native.load(ms, path)
+    textures = snapshot.ply.textures
+    if is_set_by_filter(textures):
+        image = path.with_name(textures[0])
+        _write_image(image, textures[0], snapshot)
+        native.apply(ms, "set_texture_per_mesh", textname=str(image))
+
+
+def _load_without_pixels(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
+    """Load the mesh with names of textures, but no images.
+
+    PyMeshLab loads no such mesh. But one that is copied from another set leaves its images there;
+    and one that is copied again gets empty ones, as after a native filter.
+    """
+    carrier = pymeshlab.MeshSet()
+    _load_with_images(carrier, path, snapshot)
+    native.add(ms, native.current_mesh(carrier))
+    if not snapshot.images:
+        return
+    first = native.id_of(native.current_mesh(ms))
+    native.apply(ms, "generate_copy_of_current_mesh")
+    layers.delete(ms, first)
+    numbering.note_used(ms, first)
 
 
 def _reload(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
@@ -244,6 +279,7 @@ def _lost(ms: pymeshlab.MeshSet, snapshot: Snapshot) -> list[str]:
     """In what the current mesh, as PyMeshLab read it, differs from what was to be carried."""
     mesh, vertices, faces = ms.current_mesh(), snapshot.ply.vertices, snapshot.ply.faces
     names, face_names = vertices.dtype.names or (), faces.dtype.names or ()
+    copied = snapshot.is_without_pixels
     checks = {
         "vertex positions": lambda: all(
             _same(column, vertices[axis])
@@ -253,15 +289,19 @@ def _lost(ms: pymeshlab.MeshSet, snapshot: Snapshot) -> list[str]:
         "edges": lambda: _same(mesh.edge_matrix(), snapshot.ply.edges),
         "vertex selection": lambda: _same(mesh.vertex_selection_array(), selected(vertices)),
         "face selection": lambda: _same(mesh.face_selection_array(), selected(faces)),
-        "vertex colours": lambda: mesh.has_vertex_color() == ("red" in names),
-        "vertex scalars": lambda: mesh.has_vertex_scalar() == ("quality" in names),
+        # A copy from another set has them in any case.
+        "vertex colours": lambda: copied or mesh.has_vertex_color() == ("red" in names),
+        "vertex scalars": lambda: copied or mesh.has_vertex_scalar() == ("quality" in names),
         "face colours": lambda: mesh.has_face_color() == ("red" in face_names),
         "face scalars": lambda: mesh.has_face_scalar() == ("quality" in face_names),
         "wedge texture coordinates": lambda: (
             "texcoord" not in face_names
             or _same(mesh.wedge_tex_coord_matrix(), faces["texcoord"].reshape(-1, 2))
         ),
-        "textures": lambda: _sizes(mesh.textures()) >= _sizes(_images_to_be(snapshot)),
+        "textures": lambda: (
+            mesh.texture_number() == len(snapshot.ply.textures)
+            and _sizes(mesh.textures()) >= _sizes(_images_to_be(snapshot))
+        ),
     }
     return [what for what, holds in checks.items() if not holds()]
 
@@ -278,7 +318,8 @@ def _images_to_be(snapshot: Snapshot) -> dict[str, pymeshlab.Image]:
     """The images under the names that the new mesh gives them."""
     names = snapshot.ply.textures
     given = {name: name for name in names} if is_set_by_filter(names) else _file_names(names)
-    return {given[name]: image for name, image in snapshot.images.items()}
+    kept = snapshot.is_without_pixels
+    return {given[n]: image for n, image in snapshot.images.items() if kept or has_pixels(image)}
 
 
 def _sizes(images: dict[str, pymeshlab.Image]) -> set[tuple[str, int, int]]:

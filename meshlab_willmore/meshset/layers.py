@@ -48,7 +48,11 @@ def _is_alone_and_free(ms: MeshSet) -> bool:
 
 
 def replace_current(
-    ms: MeshSet, load: Callable[[MeshSet], None], reload: Callable[[MeshSet], None], who: Identity
+    ms: MeshSet,
+    load: Callable[[MeshSet], None],
+    reload: Callable[[MeshSet], None],
+    who: Identity,
+    by_copies: bool = False,
 ) -> None:
     """Let `load` bring a new layer into `ms`, and let it take the place of the current one.
 
@@ -63,9 +67,11 @@ def replace_current(
         Brings the old layer back in the same way, if `load` fails.
     who : Identity
         Label, visibility and transform of the new layer.
+    by_copies : bool
+        Whether `load` uses up more than one id, and notes the others.
     """
     old_id = _current_id(ms)
-    alone = _is_alone_and_free(ms)
+    alone = not by_copies and _is_alone_and_free(ms)
     with interrupts.deferred(), native.without_trace(ms):
         next_id = _use_up_id(ms) if alone else None
         if next_id is not None and next_id <= _MOST_IDS_TO_REBUILD:
@@ -133,10 +139,11 @@ def _retire(ms: MeshSet, old_id: int) -> None:
         _parked.put(ms, _parked.get(ms) | {old_id})
         native.show(ms, old_id, False)
     else:
-        _delete(ms, old_id)
+        delete(ms, old_id)
 
 
-def _delete(ms: MeshSet, mesh_id: int) -> None:
+def delete(ms: MeshSet, mesh_id: int) -> None:
+    """Delete a layer that is not the current one, by its physical id."""
     current = native.current_id(ms)
     native.make_current(ms, mesh_id)
     native.apply(ms, "delete_current_mesh")
@@ -189,7 +196,7 @@ def sweep(ms: MeshSet) -> None:
     if free:
         with interrupts.deferred(), native.without_trace(ms):
             for mesh_id in sorted(free):
-                _delete(ms, mesh_id)
+                delete(ms, mesh_id)
 
 
 # --- held meshes -------------------------------------------------------------------------------

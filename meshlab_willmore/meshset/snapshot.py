@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import NamedTuple
 
 import numpy as np
@@ -27,6 +27,7 @@ _SELECTED = 0x20
 
 _BYTES_OF_VERTEX = 28
 _BYTES_OF_FACE = 17
+_LONGEST_NAME = 255
 
 
 class Attribute(NamedTuple):
@@ -81,6 +82,11 @@ class Snapshot(NamedTuple):
     def faces(self) -> np.ndarray:
         """(m, 3) int32, a copy: entries of the records start at odd addresses."""
         return np.ascontiguousarray(self.ply.faces["vertex_indices"])
+
+    @property
+    def is_without_pixels(self) -> bool:
+        """Whether there are textures, and none has an image of any size."""
+        return bool(self.ply.textures) and not any(map(has_pixels, self.images.values()))
 
     @property
     def selected_faces(self) -> np.ndarray:
@@ -202,17 +208,27 @@ def _lost_digits(records: ply.PlyMesh) -> Iterator[str]:
 
 
 def _lost_names(textures: tuple[str, ...], images: dict[str, pymeshlab.Image]) -> Iterator[str]:
-    missing = [name for name in textures if name not in images]
-    if missing:
+    missing = [n for n in dict.fromkeys(textures) if n not in images or not has_pixels(images[n])]
+    # Where all are, the mesh is carried in another way.
+    if missing and any(map(has_pixels, images.values())):
         yield f"the names of textures without an image ({', '.join(missing)})"
     odd = [name for name in textures if name != plain_name(name)]
     if odd and not is_set_by_filter(textures):
         yield f"the names of textures with other than plain characters ({', '.join(odd)})"
 
 
+def has_pixels(image: pymeshlab.Image) -> bool:
+    """Whether an image has any size: layers that were split off have textures without one."""
+    return image.width() > 0 and image.height() > 0
+
+
 def plain_name(name: str) -> str:
-    """`name` in the characters that PyMeshLab's PLY reader knows, others in percent encoding."""
-    return re.sub("[^!-|]|%", lambda odd: "".join(f"%{b:02X}" for b in odd[0].encode()), name)
+    """`name` in the characters that PyMeshLab's PLY reader knows, others in percent encoding.
+
+    It has the length that a file's name can have at most.
+    """
+    plain = re.sub("[^!-|]|%", lambda odd: "".join(f"%{b:02X}" for b in odd[0].encode()), name)
+    return plain if len(PurePosixPath(plain).name) <= _LONGEST_NAME else plain[-_LONGEST_NAME:]
 
 
 def is_set_by_filter(names: tuple[str, ...]) -> bool:

@@ -410,14 +410,109 @@ def test_attributes_that_cannot_be_named_are_an_error(bumpy):
     assert bumpy.apply_filter(FLIP, allowloss=True)["flips"] > 0
 
 
-@pytest.mark.heavy
-def test_a_texture_without_image_is_an_error(textured):
+def sizes(ms):
+    return {name: (i.width(), i.height()) for name, i in ms.current_mesh().textures().items()}
+
+
+def split_off(ms):
+    """Its texture has a name and an image of no size."""
+    ms.generate_splitting_by_connected_components()
+    return ms
+
+
+def split_off_alone(ms):
+    split_off(ms).set_current_mesh(0)
+    ms.delete_current_mesh()
+    return ms
+
+
+def copied(ms):
+    """Its texture has a name and no image at all."""
     copy = pymeshlab.MeshSet()
-    copy.add_mesh(textured.current_mesh())
-    assert copy.current_mesh().texture_number() == 1
-    with pytest.raises(pymeshlab.PyMeshLabException, match="TextureDouble_A.png"):
-        copy.apply_filter(FLIP)
-    assert copy.apply_filter(FLIP, allowloss=True)["flips"] > 0
+    copy.add_mesh(ms.current_mesh())
+    return copy
+
+
+@pytest.mark.parametrize("taken", [split_off, split_off_alone, copied])
+@pytest.mark.parametrize(
+    "names",
+    [
+        ("a.png", "b.png"),
+        ("dummy.png", "a"),
+        ("one/a.png", "other/a.png"),
+        ("a.png", "A.PNG"),
+        ("missing.png", "b.png"),
+        ("x" * 255, "y.png"),
+    ],
+    ids=lambda names: names[0][:9],
+)
+@pytest.mark.heavy
+def test_textures_without_pixels_stay_so(tmp_path, names, taken):
+    ms = taken(two_textures(tmp_path, names))
+    before, images, textures = state(ms), sizes(ms), take(ms).ply.textures
+    numbers = take(ms).ply.faces["texnumber"]
+    assert all(size == (0, 0) for size in images.values())
+    assert bool(images) == (taken is not copied)
+    mesh_id, others = ms.current_mesh_id(), [mesh.id() for mesh in ms]
+    assert ms.apply_filter(FLIP, maxflips=1)["flips"] == 1
+    after = state(ms)
+    for components in ("has_vertex_color", "has_vertex_scalar"):
+        # They come with the way in which the mesh is carried.
+        assert after.pop(components) >= before.pop(components)
+    assert_same_state({name: after[name] for name in before}, before)
+    assert (sizes(ms), take(ms).ply.textures) == (images, textures)
+    np.testing.assert_array_equal(take(ms).ply.faces["texnumber"], numbers)
+    assert (ms.current_mesh_id(), [mesh.id() for mesh in ms]) == (mesh_id, others)
+    ms.create_cube()
+    assert ms.current_mesh_id() == max(others) + 1
+
+
+def test_a_flip_does_not_make_a_picture_to_be_saved_over_the_users(textured, tmp_path):
+    split_off(textured)
+    textured.apply_filter(FLIP, maxflips=1)
+    picture = tmp_path / "TextureDouble_A.png"
+    picture.write_bytes(black_png(4))
+    with pytest.raises(pymeshlab.PyMeshLabException, match="Failed to save the image"):
+        textured.save_current_mesh(str(tmp_path / "part.obj"))
+    assert picture.read_bytes() == black_png(4)
+    assert (tmp_path / "part.obj").exists()
+
+
+@pytest.mark.heavy
+def test_one_of_several_textures_without_pixels_is_lost_by_name_only(textured, tmp_path):
+    split_off(textured)
+    textured.compute_matrix_from_translation(axisx=1.0)
+    textured.set_current_mesh(0)
+    exchange._save_image(textured.current_mesh().texture(0), tmp_path / "other.png")
+    textured.set_texture_per_mesh(textname=str(tmp_path / "other.png"))
+    textured.generate_by_merging_visible_meshes()
+    before, faces = sizes(textured), textured.current_mesh().face_matrix()
+    assert before == {"other.png": (512, 512), "TextureDouble_A.png": (0, 0)}
+    with pytest.raises(pymeshlab.PyMeshLabException, match="TextureDouble_A.png.*allowloss"):
+        textured.apply_filter(FLIP)
+    assert sizes(textured) == before
+    np.testing.assert_array_equal(textured.current_mesh().face_matrix(), faces)
+    assert textured.apply_filter(FLIP, allowloss=True)["flips"] > 0
+    assert sizes(textured)["other.png"] == (512, 512)
+
+
+@pytest.mark.heavy
+def test_two_textures_of_one_name_stay_two(tmp_path):
+    ms = two_textures(tmp_path, ("one/a.png", "other/a.png"))
+    ms.save_current_mesh(str(tmp_path / "both.ply"), save_textures=False)
+    exchange._save_image(ms.current_mesh().texture(0), tmp_path / "a.png")
+    header = (tmp_path / "both.ply").read_bytes()
+    for folder in (b"one/", b"other/"):
+        header = header.replace(b"TextureFile " + folder, b"TextureFile ")
+    (tmp_path / "both.ply").write_bytes(header)
+    ms.clear()
+    ms.load_new_mesh(str(tmp_path / "both.ply"))
+    before = take(ms).ply
+    assert before.textures == ("a.png", "a.png")
+    assert ms.apply_filter(FLIP)["flips"] > 0
+    after = take(ms).ply
+    assert after.textures == before.textures
+    np.testing.assert_array_equal(after.faces["texnumber"], before.faces["texnumber"])
 
 
 def test_what_pymeshlab_drops_is_noticed(bumpy, monkeypatch):

@@ -5,11 +5,13 @@ from __future__ import annotations
 import glob
 import os
 from collections.abc import Callable, Iterable
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from . import stopping
-from .errors import reason, wrong_use
+from ..files import special
+from . import isolation, notes, stopping, unread
+from .errors import WrongUse, reason, wrong_use
 
 if TYPE_CHECKING:
     import pymeshlab
@@ -18,38 +20,82 @@ if TYPE_CHECKING:
 _SHOWN = 3
 
 
-def expand(names: Iterable[str]) -> list[Path]:
-    """The files that `names` stand for, in their order.
+class Input(NamedTuple):
+    """A file that was asked for.
+
+    Attributes
+    ----------
+    path : Path
+        The file, or the pattern that no file matches.
+    refusal : WrongUse or None
+        Why it can't be a mesh, as far as that is known without reading it.
+    """
+
+    path: Path
+    refusal: WrongUse | None
+
+
+class NoMatchError(WrongUse):
+    """A pattern that stands for no file."""
+
+
+def asked_for(names: Iterable[str]) -> list[Input]:
+    """The files that `names` stand for, in their order, and what is wrong with each.
 
     A name that no file has is taken for a pattern if it has wildcards, also where the shell does
     not expand them; ``**`` goes through folders.
+    """
+    return [found for name in names for found in _asked_for(name)]
+
+
+def _asked_for(name: str) -> list[Input]:
+    try:
+        paths = matches(name)
+    except NoMatchError as error:
+        return [Input(Path(name), error)]
+    return [Input(path, _refusal(path)) for path in paths]
+
+
+def _refusal(path: Path) -> WrongUse | None:
+    try:
+        check(path)
+    except WrongUse as error:
+        return error
+    return None
+
+
+def expand(names: Iterable[str]) -> list[Path]:
+    """The files that `names` stand for, as `asked_for`.
 
     Raises
     ------
     WrongUse
         For a name or pattern without a readable, non-empty file.
     """
-    files = [path for name in names for path in matches(name)]
-    for path in files:
-        check(path)
-    return files
+    found = asked_for(names)
+    for _, refusal in found:
+        if refusal is not None:
+            raise refusal
+    return [path for path, _ in found]
 
 
 def matches(name: str) -> list[Path]:
     """The files that a name or pattern stands for; a plain name is one file, there or not.
 
+    A folder counts only where the pattern has the ending of a file.
+
     Raises
     ------
-    WrongUse
+    NoMatchError
         For a pattern that no file matches.
     """
-    if os.path.exists(name) or not glob.has_magic(name):
+    if os.path.lexists(name) or not glob.has_magic(name):
         return [Path(name)]
     # Hidden files are temporary ones of other programs, or of this one.
     found = [Path(match) for match in sorted(glob.glob(name, recursive=True))]
-    files = [path for path in found if path.is_file()]
+    files = [path for path in found if Path(name).suffix or not path.is_dir()]
     if not files:
-        raise wrong_use(f"no file matches {name!r}")
+        raise NoMatchError(f"no file matches {name!r}")
     return files
 
 
@@ -64,19 +110,36 @@ def check(path: Path) -> None:
     refuse_folder(path, "meshes", "*.ply")
     if not os.path.exists(path):
         raise wrong_use(f"there is no file {path}{_beside(path)}")
+    kind = special(path)
+    if kind:
+        raise wrong_use(f"{path} is {kind}; meshes are read from files")
     if not os.access(path, os.R_OK):
         raise wrong_use(f"{path} can't be read: permission denied")
-    if path.stat().st_size == 0:
+    if os.path.getsize(path) == 0:
         raise wrong_use(f"{path} is empty (0 bytes)")
+    check_name(path)
+
+
+def check_name(path: Path) -> None:
+    """Raise `WrongUse` if PyMeshLab can't know the file by its name."""
+    try:
+        str(path.absolute()).encode()
+    except UnicodeEncodeError as error:
+        raise wrong_use(f"{path}: PyMeshLab takes names in UTF-8 only; rename it") from error
 
 
 def _beside(path: Path) -> str:
     """The names in the folder that look like the missing one."""
     import difflib
 
+    if os.path.islink(path):
+        return f": it is a link to {os.readlink(path)}"
     if not os.path.isdir(path.parent):
         return f": there is no folder {path.parent}"
-    names = [p.name for p in path.parent.iterdir() if p.is_file()]
+    try:
+        names = [entry.name for entry in os.scandir(path.parent) if entry.is_file()]
+    except OSError:
+        return ""
     close = difflib.get_close_matches(path.name, names, n=_SHOWN)
     return f"; there is {', '.join(close)}" if close else ""
 
@@ -96,7 +159,7 @@ def loaded(
 
 
 def load(ms: pymeshlab.MeshSet, path: Path) -> None:
-    """Load a mesh file as new layers of `ms`.
+    """Load a mesh file as new layers of `ms`, and tell what of it is left out.
 
     Raises
     ------
@@ -105,19 +168,40 @@ def load(ms: pymeshlab.MeshSet, path: Path) -> None:
     """
     from ..meshset import native
 
+    errors: tuple[type[Exception], ...] = (*native.ERRORS, OSError)
     native.forget_failures()
     try:
         with stopping.at_once(), native.muted():
+            isolation.check(path, partial(_try, path), partial(_why, path))
+        with stopping.at_once(), native.overheard(ms) as printed:
             native.load(ms, path)
-    except native.ERRORS as error:
-        raise OSError(f"cannot read {path}: {_why(error, path)}") from error
+    except errors as error:
+        raise OSError(f"cannot read {path}: {_why(path, error)}") from error
     if ms.current_mesh().vertex_number() == 0:
         raise OSError(f"cannot read {path}: there is no mesh in it (no vertices)")
+    for loss in unread.losses(path, printed):
+        notes.tell(f"{path}: {loss}")
 
 
-def _why(error: Exception, path: Path) -> str:
+def _try(path: Path) -> None:
+    import pymeshlab
+
+    from ..meshset import native
+
+    native.load(pymeshlab.MeshSet(), path)
+
+
+def _why(path: Path, error: Exception) -> str:
+    if not path.suffix:
+        return "it has no ending that tells its format"
     if "Unknown format" in str(error):
         return f"PyMeshLab knows no mesh format {path.suffix!r}"
     # Without details nothing but the names of file and class is left.
     details = reason(error).rstrip(".")
     return "it is no mesh of that format" if details in ("", type(error).__name__) else details
+
+
+def how_many_failed(failed: int, count: int) -> str:
+    """The last word on several inputs, of which some failed."""
+    rest = "" if failed == count else "; the others are done"
+    return f"{failed} of {count} inputs failed{rest}"

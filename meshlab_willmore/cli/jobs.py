@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from .errors import wrong_use
+from .errors import WrongUse, wrong_use
+from .inputs import Input, NoMatchError
 from .outputs import check_distinct, check_target, has_placeholder, name_for
 
 
@@ -19,10 +20,13 @@ class Job(NamedTuple):
         The layers, in their order; none if the script makes its own mesh.
     outputs : tuple of Path
         One: the current mesh in the end. Several: the first layers, in their order.
+    refusal : WrongUse or None
+        Why there is nothing to run it on.
     """
 
     inputs: tuple[Path, ...]
     outputs: tuple[Path, ...]
+    refusal: WrongUse | None = None
 
     @property
     def files(self) -> tuple[Path, ...]:
@@ -35,13 +39,16 @@ class Job(NamedTuple):
         return ", ".join(map(str, self.inputs)) or "no input"
 
 
-def plan(inputs: Sequence[Path], patterns: Sequence[str], layers: bool, force: bool) -> list[Job]:
+def plan(inputs: Sequence[Input], patterns: Sequence[str], layers: bool, force: bool) -> list[Job]:
     """Share inputs and outputs out, and check every output.
+
+    An input that can't be read has a job of its own, without outputs; the others go on.
 
     Raises
     ------
     WrongUse
-        If they don't fit together, or an output can't be right.
+        If they don't fit together, the only set of inputs can't be read, or an output can't be
+        right.
     OSError
         If a folder can't be written into.
     """
@@ -51,26 +58,36 @@ def plan(inputs: Sequence[Path], patterns: Sequence[str], layers: bool, force: b
         for job in jobs
         for output in job.outputs
     ]
-    check_distinct(results, inputs if len(jobs) > 1 else ())
+    check_distinct(results, [path for path, _ in inputs] if len(jobs) > 1 else ())
     for output, _ in results:
         check_target(output, force)
     return jobs
 
 
-def _shared_out(inputs: Sequence[Path], patterns: Sequence[str], layers: bool) -> list[Job]:
+def _shared_out(inputs: Sequence[Input], patterns: Sequence[str], layers: bool) -> list[Job]:
     if not inputs:
         return [Job((), tuple(_own_name(pattern) for pattern in patterns))]
     if layers or len(inputs) == 1:
-        return [Job(tuple(inputs), tuple(name_for(p, inputs[0], 1) for p in patterns))]
+        for _, refusal in inputs:
+            if refusal is not None:
+                raise refusal
+        paths = tuple(path for path, _ in inputs)
+        return [Job(paths, tuple(name_for(p, paths[0], 1) for p in patterns))]
     if len(patterns) > 1 or (patterns and not has_placeholder(patterns[0])):
         raise wrong_use(
             f"{len(inputs)} inputs need one -o with a placeholder, such as "
             "-o '{name}_flipped.ply'; with --layers they become the layers of one set"
         )
-    return [
-        Job((path,), tuple(name_for(pattern, path, index) for pattern in patterns))
-        for index, path in enumerate(inputs, start=1)
-    ]
+    return list(_one_by_one(inputs, patterns))
+
+
+def _one_by_one(inputs: Sequence[Input], patterns: Sequence[str]) -> Iterator[Job]:
+    index = 0
+    for path, refusal in inputs:
+        # A file keeps its number, whatever is wrong with those before it.
+        index += not isinstance(refusal, NoMatchError)
+        outputs = () if refusal else tuple(name_for(pattern, path, index) for pattern in patterns)
+        yield Job((path,), outputs, refusal)
 
 
 def _own_name(pattern: str) -> Path:

@@ -12,7 +12,7 @@ import click
 
 from .columns import in_columns
 from .errors import WrongUse, debug_option, one_line, reason, stops_all, told_of
-from .inputs import check, loaded, matches
+from .inputs import asked_for, how_many_failed, loaded
 
 EXAMPLES = """\b
 Examples:
@@ -44,52 +44,32 @@ def command(files: tuple[str, ...], as_json: bool) -> None:
     A file that can't be measured is named on the standard error; the others are measured, and the
     exit code is 1 in the end.
     """
-    paths, absent = _sorted_out(files)
+    paths, count = _checked(files)
     measured = _measure_all(paths)
     if as_json:
         click.echo(json.dumps([_for_json(row) for row in measured], indent=2))
     elif measured:
         click.echo(_table(measured))
-    if absent or len(measured) < len(paths):
-        click.get_current_context().exit(1)
+    if len(measured) < count:
+        raise click.ClickException(how_many_failed(count - len(measured), count))
 
 
-def _sorted_out(names: Iterable[str]) -> tuple[list[Path], list[WrongUse]]:
-    """The files that can be tried, and what is wrong with the others, which is said.
+def _checked(names: Iterable[str]) -> tuple[list[Path], int]:
+    """The files that can be tried, and how many were asked for; what is wrong with others is said.
 
     Raises
     ------
     WrongUse
         If there is nothing to try.
     """
-    paths: list[Path] = []
-    wrong: list[WrongUse] = []
-    for name in names:
-        found, errors = _found(name)
-        paths += found
-        wrong += errors
-    if wrong and not paths:
-        raise WrongUse("; ".join(map(one_line, wrong)))
-    for error in wrong:
-        click.echo(f"Error: {one_line(error)}", err=True)
-    return paths, wrong
-
-
-def _found(name: str) -> tuple[list[Path], list[WrongUse]]:
-    try:
-        candidates = matches(name)
-    except WrongUse as error:
-        return [], [error]
-    answers = [(path, _refusal(path)) for path in candidates]
-    return [path for path, no in answers if no is None], [no for _, no in answers if no]
-
-
-def _refusal(path: Path) -> WrongUse | None:
-    try:
-        check(path)
-    except WrongUse as error:
-        return error
-    return None
+    found = asked_for(names)
+    paths = [path for path, refusal in found if refusal is None]
+    wrong = [one_line(refusal) for _, refusal in found if refusal is not None]
+    if not paths:
+        raise WrongUse("; ".join(wrong))
+    for text in wrong:
+        click.echo(f"Error: {text}", err=True)
+    return paths, len(found)
 
 
 def _measure_all(paths: Iterable[Path]) -> list[dict[str, Any]]:

@@ -13,6 +13,7 @@ from typing import Any
 from ..files import UnwritableError, is_stream, place_of, refuse_special, writable_folder
 from . import formats
 from .errors import wrong_use
+from .inputs import check_name
 
 PLACEHOLDERS = {
     "name": "the input's name without its ending",
@@ -102,7 +103,7 @@ def check_distinct(results: Sequence[tuple[Path, Path]], inputs: Iterable[Path])
 
 
 def _identity(path: Path) -> str:
-    return os.path.normcase(path.resolve())
+    return os.path.normcase(os.path.realpath(path))
 
 
 def check_target(path: Path, force: bool) -> None:
@@ -116,6 +117,7 @@ def check_target(path: Path, force: bool) -> None:
         If the folder can't be written into.
     """
     check_place(path, force)
+    check_name(path)
     ending = path.suffix.lstrip(".")
     if not ending or not formats.is_written(ending):
         told = f"PyMeshLab writes no {path.suffix} files" if ending else "it has no ending"

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import click
 
-from . import outputs, playing, results, told
+from . import inputs, outputs, playing, results, told
 from .columns import counted
 from .errors import debug_option, one_line, stops_all, told_of, wrong_use
 from .flip import FILTER
@@ -124,7 +124,8 @@ def command(script: str | None, also: str | None, **given: Any) -> None:
 
     The whole script is checked before its first step; it can come from a pipe, and - is the
     standard input. An output is there when it is whole, not before. Several inputs are run one
-    after the other; if one fails, the others go on, and the exit code is 1 in the end.
+    after the other; if one fails or can't be read, the others go on, and the exit code is 1 in the
+    end. What loading or saving leaves out is told in a note.
 
     With --layers the first input is the current layer, as in meshlabserver. One -o saves the mesh
     that is current in the end; several save the first layers, in their order. Each -m is for
@@ -133,7 +134,7 @@ def command(script: str | None, also: str | None, **given: Any) -> None:
     MeshLab's window saves scripts ("Show current filter script"), and so does PyMeshLab; a short
     one stands below. 'meshlab-willmore filters' has the names, 'lint' finds what is wrong.
     """
-    from . import inputs, jobs, runlog
+    from . import jobs, runlog
 
     source = _script_of(script, also)
     orders = Orders(
@@ -145,7 +146,7 @@ def command(script: str | None, also: str | None, **given: Any) -> None:
         given["dry_run"],
     )
     todo = jobs.plan(
-        inputs.expand(given["inputs"]), given["patterns"], given["layers"], orders.force
+        inputs.asked_for(given["inputs"]), given["patterns"], given["layers"], orders.force
     )
     runlog.check(given["log"], [Path(source.name), *(file for job in todo for file in job.files)])
     if not orders.dry_run and _has_flips(orders.steps):
@@ -196,7 +197,7 @@ def _run_all(orders: Orders, todo: Sequence[Job], log: Log) -> None:
     ends_at_once = len(todo) == 1 or orders.stop or debug
     failed = sum(not _succeeds(orders, job, log, ends_at_once) for job in todo)
     if failed:
-        raise click.ClickException(f"{failed} of {len(todo)} inputs failed; the others are done")
+        raise click.ClickException(inputs.how_many_failed(failed, len(todo)))
 
 
 def _succeeds(orders: Orders, job: Job, log: Log, ends_at_once: bool) -> bool:
@@ -217,6 +218,8 @@ def _run_one(orders: Orders, job: Job, log: Log) -> str:
     """Run the script on one set of meshes; returns lines that say what was done."""
     from ..meshset.check import resolve
 
+    if job.refusal is not None:
+        raise job.refusal
     start = time.perf_counter()
     ms = results.loaded(job, log)
     calls = resolve(orders.steps, orders.source, [mesh.id() for mesh in ms])

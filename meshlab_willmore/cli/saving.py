@@ -12,10 +12,8 @@ from collections.abc import Iterable
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, NamedTuple
 
-import click
-
 from ..files import folder_beside, put, refuse_special
-from . import attributes, textures
+from . import attributes, notes, textures, unheld
 from .errors import reason
 from .masks import TEXTURED, keywords, not_held
 
@@ -52,9 +50,9 @@ def save(ms: pymeshlab.MeshSet, path: Path, wish: Wish) -> list[Path]:
     OSError
         In one line: the file, and what is wrong. What was there before is as it was.
     """
-    note = not_held(wish.parts, path.suffix.lstrip("."))
-    if note:
-        click.echo(f"Note: {note}", err=True)
+    ending = path.suffix.lstrip(".")
+    if note := not_held(wish.parts, ending):
+        notes.tell(note)
     with folder_beside(path) as folder:
         images = _textures(ms, path, wish)
         draft = _inside(folder, images) / path.name
@@ -66,6 +64,8 @@ def save(ms: pymeshlab.MeshSet, path: Path, wish: Wish) -> list[Path]:
         for source, target in moves:
             _check_whole(source, target)
         _check_free(moves, path, wish.force)
+        for loss in unheld.losses(ms, draft, ending.lower(), bool(wish.parts)):
+            notes.tell(f"{path}: {loss}")
         _place(moves)
     return [target for _, target in reversed(moves)]
 
@@ -90,12 +90,12 @@ def _write(ms: pymeshlab.MeshSet, draft: Path, path: Path, wish: Wish) -> None:
         return
     custom = attributes.of(ms)
     if custom and path.suffix.lower() != ".ply":
-        click.echo(f"Note: {path.suffix} files hold no custom attributes", err=True)
+        notes.tell(f"{path.suffix} files hold no custom attributes")
         custom = ()
     _write_with(ms, draft, path, dict.fromkeys(custom, True))
     odd = attributes.odd(draft, custom) if custom else ()
     if odd:
-        click.echo("Note: custom attributes with odd names are not saved", err=True)
+        notes.tell("custom attributes with odd names are not saved")
         _write_with(ms, draft, path, {key: True for key in custom if key not in odd})
 
 
@@ -105,8 +105,8 @@ def _write_with(ms: pymeshlab.MeshSet, draft: Path, path: Path, flags: dict[str,
     native.forget_failures()
     why = ""
     try:
-        with native.muted():
-            ms.save_current_mesh(str(draft), save_textures=False, **flags)
+        with native.muted(), native.kept_working_folder():
+            ms.save_current_mesh(str(draft.absolute()), save_textures=False, **flags)
     except native.ERRORS as error:
         why = reason(error)
     if not draft.is_file() or draft.stat().st_size == 0:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..files import is_stream
 from .errors import wrong_use
 from .inputs import refuse_folder
 
@@ -15,7 +15,8 @@ if TYPE_CHECKING:
     from ..meshset.check import Findings
 
 STANDARD_STREAM = "-"
-_ENDING = ".mlx"
+# Names with the ending of a script, the standard input, and what stands for ``<(...)``.
+_SCRIPT = re.compile(r".*\.mlx|/dev/stdin|/dev/fd/\d+|/proc/self/fd/\d+", re.DOTALL)
 _STANDARD_INPUT = "standard input"
 
 
@@ -41,13 +42,8 @@ class Source(NamedTuple):
 
 
 def is_script(word: str) -> bool:
-    """Whether a word among others names a script: by its ending, or because it is a pipe."""
-    if word == STANDARD_STREAM or word.lower().endswith(_ENDING):
-        return True
-    try:
-        return is_stream(Path(word))
-    except (OSError, ValueError):
-        return False
+    """Whether a word among others names a script: by its ending, or because a shell made it so."""
+    return word == STANDARD_STREAM or bool(_SCRIPT.fullmatch(word.lower()))
 
 
 def source_of(name: str) -> Source:

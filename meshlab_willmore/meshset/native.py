@@ -11,6 +11,7 @@ import contextlib
 import ctypes
 import functools
 import inspect
+import io
 import os
 import sys
 import tempfile
@@ -97,8 +98,14 @@ def clear(ms: MeshSet) -> None:
 
 
 def load(ms: MeshSet, path: Path) -> None:
-    """Load a mesh as a new layer, which becomes the current one."""
-    _load_new_mesh(ms, str(path))
+    """Load a mesh as a new layer, which becomes the current one.
+
+    The working folder is none of the mesh meanwhile: PyMeshLab looks for textures there first.
+    """
+    absolute = path.absolute()
+    with kept_working_folder():
+        os.chdir(absolute.anchor)
+        _load_new_mesh(ms, str(absolute))
 
 
 def add(ms: MeshSet, mesh: pymeshlab.Mesh, label: str = "") -> None:
@@ -315,6 +322,25 @@ def _redirected(descriptors: Iterable[int], sink: IO[bytes]) -> Iterator[None]:
                 os.dup2(sink.fileno(), descriptor)
         stack.callback(_flush_c_streams)
         yield
+
+
+@contextmanager
+def overheard(ms: MeshSet) -> Iterator[list[str]]:
+    """PyMeshLab prints nothing inside; afterwards, the list holds the lines that it would have.
+
+    They are those of a verbose set.
+    """
+    lines: list[str] = []
+    # The parameters of a call are printed by Python.
+    with tempfile.TemporaryFile() as sink, contextlib.redirect_stdout(io.StringIO()):
+        _set_verbosity(ms, True)
+        try:
+            with _redirected((1, 2), sink):
+                yield lines
+        finally:
+            _set_verbosity(ms, bool(verbosity(ms).all))
+        sink.seek(0)
+        lines += sink.read().decode("utf-8", "surrogateescape").splitlines()
 
 
 class _InTurn:

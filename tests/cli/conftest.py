@@ -39,6 +39,39 @@ def spawn(*arguments, **given):
     )
 
 
+# A PNG of one pixel.
+ONE_PIXEL = bytes.fromhex(
+    "89504e470d0a1a0a0000000d49484452000000010000000108000000003a7e9b55"
+    "0000000a49444154789c63f80f0001010100b138f6140000000049454e44ae426082"
+)
+
+SQUARE_OBJ = """mtllib square.mtl
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+usemtl A
+f 1/1 2/2 3/3
+usemtl B
+f 1/1 3/3 4/4
+"""
+
+
+def square_with_textures(folder, *names):
+    """A square whose triangles have the textures of these names, which are not made."""
+    Path(folder).mkdir(exist_ok=True)
+    materials = zip("AB", names, strict=False)
+    lines = [f"newmtl {letter}\nmap_Kd {name}\n" for letter, name in materials]
+    (Path(folder) / "square.mtl").write_text("".join(lines))
+    path = Path(folder) / "square.obj"
+    path.write_text(SQUARE_OBJ if len(names) > 1 else SQUARE_OBJ.replace("usemtl B\n", ""))
+    return path
+
+
 @contextmanager
 def piped(data):
     """The name of a pipe with `data` in it, as a shell's ``<(...)`` gives it."""

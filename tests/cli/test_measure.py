@@ -42,7 +42,8 @@ def test_a_file_that_cannot_be_measured_does_not_stop_the_others():
     result = call("measure", "bad.ply", "cube.ply", "points.xyz", "--json")
     assert result.exit_code == 1
     assert [row["file"] for row in json.loads(result.stdout)] == ["cube.ply"]
-    first, second = result.stderr.splitlines()
+    first, second, last = result.stderr.splitlines()
+    assert last == "Error: 2 of 3 inputs failed; the others are done"
     assert first == "Error: cannot read bad.ply: Header not found"
     assert second.startswith("Error: points.xyz: The current mesh has no faces")
 
@@ -63,6 +64,7 @@ def test_what_is_absent_does_not_stop_the_others():
         "Error: empty.ply is empty (0 bytes)\n"
         "Error: there is no file no.ply\n"
         "Error: no file matches '*.off'\n"
+        "Error: 3 of 5 inputs failed; the others are done\n"
     )
 
 

@@ -1,0 +1,112 @@
+"""Loading a mesh in a process of its own first: PyMeshLab crashes on some files that end early.
+
+One such file would end a run with all that comes after it.
+"""
+
+from __future__ import annotations
+
+import faulthandler
+import os
+import select
+import signal
+import sys
+import time
+import warnings
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+
+# Some files that end early make PyMeshLab read or reserve memory without end.
+_SECONDS = 60.0
+_SECONDS_PER_BYTE = 1e-6
+
+_FINE = b"+"
+_FAILED = b"-"
+_CHUNK = 1 << 16
+
+
+def check(path: Path, load: Callable[[], None], why: Callable[[Exception], str]) -> None:
+    """Raise if `load` fails, crashes or does not end; nothing that it does is to be seen.
+
+    Parameters
+    ----------
+    path : Path
+        The file, whose size tells how long it may take.
+    why : callable
+        What to say of an error.
+
+    Raises
+    ------
+    OSError
+        In one line, without the name of the file.
+    """
+    if sys.platform != "linux":
+        return
+    end, start = os.pipe()
+    with warnings.catch_warnings():
+        # Threads of others don't matter to a child that loads and is gone.
+        warnings.simplefilter("ignore", DeprecationWarning)
+        child = os.fork()
+    if child == 0:
+        os.close(end)
+        _answer(start, load, why)
+    os.close(start)
+    try:
+        seconds = _SECONDS + _SECONDS_PER_BYTE * path.stat().st_size
+        answer = _read(end, time.monotonic() + seconds)
+    finally:
+        os.close(end)
+        with suppress(ProcessLookupError):
+            os.kill(child, signal.SIGKILL)
+        _, status = os.waitpid(child, 0)
+    if answer is None:
+        raise OSError(f"PyMeshLab does not come to an end with it in {seconds:.0f} s")
+    if answer.startswith(_FAILED):
+        raise OSError(answer[1:].decode("utf-8", "surrogateescape"))
+    if answer != _FINE:
+        name = signal.Signals(os.WTERMSIG(status)).name if os.WIFSIGNALED(status) else "no answer"
+        raise OSError(f"PyMeshLab crashes on it ({name}); the file is damaged, or ends early")
+
+
+def _read(end: int, until: float) -> bytes | None:
+    """All that comes before the other end is closed; None if that takes too long."""
+    data = b""
+    while True:
+        left = until - time.monotonic()
+        if left <= 0.0 or not select.select([end], [], [], left)[0]:
+            return None
+        piece = os.read(end, _CHUNK)
+        if not piece:
+            return data
+        data += piece
+
+
+# --- in the process ----------------------------------------------------------------------------
+
+
+def _answer(start: int, load: Callable[[], None], why: Callable[[Exception], str]) -> None:
+    """Load, say how that went, and end."""
+    try:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        faulthandler.disable()
+        _limit_memory()
+        load()
+        os.write(start, _FINE)
+    except Exception as error:
+        os.write(start, _FAILED + why(error).encode("utf-8", "surrogateescape")[:_CHUNK])
+    finally:
+        os._exit(0)
+
+
+def _limit_memory() -> None:
+    """Let no broken file take the memory of others, nor leave a core behind."""
+    import resource
+
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    pages = int(Path("/proc/self/statm").read_text().split()[0])
+    lines = Path("/proc/meminfo").read_text().splitlines()
+    free = next(int(line.split()[1]) for line in lines if line.startswith("MemAvailable:"))
+    wanted = pages * resource.getpagesize() + free * 1024
+    soft, hard = resource.getrlimit(resource.RLIMIT_AS)
+    limits = [limit for limit in (soft, hard) if limit != resource.RLIM_INFINITY]
+    resource.setrlimit(resource.RLIMIT_AS, (min([wanted, *limits]), hard))

@@ -1,0 +1,230 @@
+"""Several inputs: what is wrong with one is said of that one; the others are as they would be."""
+
+import json
+import os
+import socket
+import sys
+from pathlib import Path
+
+import pytest
+
+from meshlab_willmore.cli import inputs
+from meshlab_willmore.cli.errors import WrongUse
+
+from .conftest import (
+    FLIP,
+    ONE_PIXEL,
+    SAMPLES,
+    TAUBIN,
+    call,
+    cube_file,
+    listing,
+    loaded,
+    same_mesh,
+    script_file,
+    square_with_textures,
+)
+
+POSIX = pytest.mark.skipif(sys.platform == "win32", reason="pipes, sockets and links of POSIX")
+LINUX = pytest.mark.skipif(sys.platform != "linux", reason="loads in a process of its own on Linux")
+
+SQUARE = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n"
+
+
+def square(path):
+    Path(path).write_text(SQUARE)
+    return Path(path)
+
+
+def nothing_to_read(path):
+    path.touch()
+
+
+def a_folder(path):
+    path.mkdir()
+
+
+def nonsense(path):
+    path.write_text("no mesh")
+
+
+def a_pipe(path):
+    os.mkfifo(path)
+
+
+def a_socket(path):
+    with socket.socket(socket.AF_UNIX) as made:
+        made.bind(str(path))
+
+
+def a_link_to_nothing(path):
+    path.symlink_to("nothing")
+
+
+def a_link_to_itself(path):
+    path.symlink_to(path.name)
+
+
+def half_a_face(path):
+    # PyMeshLab crashes on it.
+    path.write_text(SQUARE[:40])
+
+
+def no_vertices(path):
+    path.write_text("OFF\n0 0 0\n")
+
+
+BAD = [
+    (nothing_to_read, "is empty", ()),
+    (a_folder, "is a folder", ()),
+    (nonsense, "cannot read ", ()),
+    (no_vertices, "cannot read ", ()),
+    (a_pipe, "is a pipe; meshes are read from files", POSIX),
+    (a_socket, "is a socket; meshes are read from files", POSIX),
+    (a_link_to_nothing, "there is no file ", POSIX),
+    (a_link_to_itself, "there is no file ", POSIX),
+    (half_a_face, "PyMeshLab crashes on it", LINUX),
+]
+
+
+@pytest.mark.parametrize(
+    ("make", "line"),
+    [pytest.param(make, line, marks=marks, id=make.__name__) for make, line, marks in BAD],
+)
+def test_a_bad_input_among_others_is_named_and_the_others_are_done(make, line):
+    Path("in").mkdir()
+    square("in/a.off")
+    make(Path("in/b.off"))
+    cube_file("in/c.ply")
+    # What a changed working folder would lead to.
+    square("c.ply")
+    arguments = ["-i", "in/*.off", "in/c.ply", "-o", "{index}{name}_done.ply"]
+    result = call("run", script_file(TAUBIN), *arguments)
+    assert result.exit_code == 1
+    first, last = result.stderr.splitlines()
+    assert "in/b.off" in first
+    assert line in first
+    assert last == "Error: 1 of 3 inputs failed; the others are done"
+    assert listing() == ["1a_done.ply", "3c_done.ply", "c.ply", "in", "script.mlx"]
+    assert len(loaded("3c_done.ply").faces) == 24
+    table = call("measure", "in/a.off", "in/b.off", "in/c.ply", "--json")
+    assert [row["file"] for row in json.loads(table.stdout)] == ["in/a.off", "in/c.ply"]
+    assert table.stderr == result.stderr
+
+
+@pytest.mark.parametrize("bad", ["missing.ply", "*.nothing", "text.xyzzy"])
+def test_absent_and_unknown_inputs_stop_nothing(bad):
+    Path("text.xyzzy").write_text("hello")
+    square("a.off")
+    result = call("run", script_file(TAUBIN), "-i", bad, "a.off", "-o", "{name}.ply")
+    assert result.exit_code == 1
+    assert bad in result.stderr.splitlines()[0]
+    assert Path("a.ply").exists()
+
+
+def test_an_input_that_goes_away_meanwhile(monkeypatch):
+    square("a.off")
+    square("b.off")
+    load = inputs.load
+
+    def take_away(ms, path):
+        Path("b.off").unlink(missing_ok=True)
+        load(ms, path)
+
+    monkeypatch.setattr(inputs, "load", take_away)
+    result = call("run", script_file(TAUBIN), "-i", "a.off", "b.off", "-o", "{name}.ply")
+    assert result.exit_code == 1
+    assert result.stderr.splitlines()[0].startswith("Error: cannot read b.off: ")
+    assert Path("a.ply").exists()
+    assert not Path("b.ply").exists()
+
+
+def test_an_input_without_permission(monkeypatch):
+    square("a.off")
+    square("b.off")
+    access = os.access
+    monkeypatch.setattr(
+        os, "access", lambda path, mode: Path(path).stem != "b" and access(path, mode)
+    )
+    result = call("run", script_file(TAUBIN), "-i", "a.off", "b.off", "-o", "{name}.ply")
+    assert result.exit_code == 1
+    assert result.stderr.startswith("Error: b.off can't be read: permission denied\n")
+    assert Path("a.ply").exists()
+
+
+def test_the_outputs_of_bad_inputs_are_no_matter():
+    square("a.off")
+    Path("b.off").touch()
+    square("b.ply")
+    result = call("run", script_file(TAUBIN), "-i", "*.off", "-o", "{name}.ply")
+    assert result.exit_code == 1
+    assert "b.ply is there" not in result.stderr
+    assert Path("b.ply").read_text() == SQUARE
+
+
+def test_all_fail():
+    Path("a.off").write_text("no mesh")
+    Path("b.off").touch()
+    result = call("run", script_file(TAUBIN), "-i", "*.off", "-o", "{name}.ply")
+    assert result.exit_code == 1
+    assert result.stderr.splitlines()[-1] == "Error: 2 of 2 inputs failed"
+
+
+def test_layers_are_all_needed():
+    square("a.off")
+    Path("b.off").touch()
+    result = call("run", script_file(TAUBIN), "-i", "*.off", "--layers", "-o", "c.ply")
+    assert (result.exit_code, result.stderr) == (2, "Error: b.off is empty (0 bytes)\n")
+
+
+NAMES = ["a b", "ü", "[a]", "{name}", "a'b", 'a"b', "a#b%20", "-x", "~", "a;b", " a"]
+
+
+@POSIX
+def test_names_with_odd_characters(tmp_path):
+    for name in NAMES:
+        square(f"{name}.off")
+    result = call("run", script_file(TAUBIN), "-i", "./*.off", "-o", "{name}_done.ply")
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert {f"{name}_done.ply" for name in NAMES} <= set(listing())
+
+
+@POSIX
+def test_a_name_that_is_no_text_is_named():
+    path = Path(os.fsdecode(b"\xff.off"))
+    try:
+        square(path)
+    except OSError:
+        pytest.skip("needs a file system with any bytes in names")
+    with pytest.raises(WrongUse, match="PyMeshLab takes names in UTF-8 only"):
+        inputs.check(path)
+
+
+def test_the_working_folder_is_kept_after_each_load_and_save():
+    Path("in").mkdir()
+    Path("in/bad.ply").write_text("no mesh")
+    here = Path.cwd()
+    with pytest.raises(OSError, match=r"cannot read in/bad\.ply: Header not found"):
+        inputs.loaded(Path("in/bad.ply"))
+    assert Path.cwd() == here
+    assert call("flip", "in/bad.ply", "out.ply").exit_code == 1
+    assert Path.cwd() == here
+
+
+def test_a_picture_in_the_working_folder_is_not_taken_for_that_beside_the_mesh():
+    # PyMeshLab itself looks into the working folder first.
+    Path("red.png").write_bytes((SAMPLES / "TextureDouble_A.png").read_bytes())
+    textured = square_with_textures("in", "red.png")
+    Path("in/red.png").write_bytes(ONE_PIXEL)
+    ms = inputs.loaded(textured)
+    assert list(ms.current_mesh().textures()) == ["red.png"]
+    assert ms.current_mesh().textures()["red.png"].width() == 1
+
+
+def test_same_result_as_alone():
+    cube = cube_file()
+    Path("a.ply").write_text("no mesh")
+    script = script_file(FLIP, TAUBIN)
+    assert call("run", script, "-i", cube, "-o", "alone.ply").exit_code == 0
+    assert call("run", script, "-i", "a.ply", cube, "-o", "{name}_two.ply").exit_code == 1
+    assert same_mesh("alone.ply", "cube_two.ply")

@@ -1,0 +1,58 @@
+"""Loading in a process of its own first: crashes, hangs and errors are told apart."""
+
+import os
+import signal
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from meshlab_willmore.cli import isolation
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="for Linux only")
+
+
+@pytest.fixture
+def file(tmp_path):
+    path = tmp_path / "a.ply"
+    path.touch()
+    return path
+
+
+def test_nothing_of_a_load_that_succeeds_is_seen(file):
+    seen = []
+    isolation.check(file, lambda: seen.append(1), str)
+    assert seen == []
+
+
+def test_an_error_is_told_in_the_words_of_its_own(file):
+    def fail():
+        raise ValueError("wrong")
+
+    with pytest.raises(OSError, match=r"^why: wrong$"):
+        isolation.check(file, fail, lambda error: f"why: {error}")
+
+
+def test_a_crash_is_named(file):
+    with pytest.raises(OSError, match=r"^PyMeshLab crashes on it \(SIGSEGV\); the file is damaged"):
+        isolation.check(file, lambda: os.kill(os.getpid(), signal.SIGSEGV), str)
+
+
+def test_what_does_not_end_is_ended(file, monkeypatch):
+    monkeypatch.setattr(isolation, "_SECONDS", 0.1)
+    with pytest.raises(OSError, match="does not come to an end"):
+        isolation.check(file, lambda: time.sleep(1000), str)
+
+
+def test_memory_has_a_limit(file):
+    with pytest.raises(OSError, match=r"^MemoryError$"):
+        isolation.check(file, lambda: bytearray(1 << 46), lambda error: type(error).__name__)
+
+
+def test_no_process_and_no_descriptor_is_left(file):
+    before = set(os.listdir("/proc/self/fd"))
+    isolation.check(file, lambda: None, str)
+    assert set(os.listdir("/proc/self/fd")) == before
+    children = Path(f"/proc/self/task/{os.getpid()}/children")
+    assert not children.exists() or children.read_text() == ""

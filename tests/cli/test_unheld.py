@@ -1,0 +1,94 @@
+"""What the format of an output can't hold is told, and nothing else."""
+
+from pathlib import Path
+
+import numpy as np
+import pymeshlab
+import pytest
+
+from meshlab_willmore.cli.saving import Wish, save
+from tests import meshes
+
+from .conftest import SAMPLES
+
+SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+FACES = np.array([[0, 1, 2], [0, 2, 3]])
+
+
+def told(name, capsys, wish=None, **given):
+    ms = pymeshlab.MeshSet()
+    ms.add_mesh(pymeshlab.Mesh(**{"vertex_matrix": SQUARE, "face_matrix": FACES, **given}))
+    save(ms, Path(name), wish or Wish())
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    return captured.err
+
+
+def colours(count):
+    return {"color_matrix": np.linspace(0.0, 1.0, 4 * count).reshape(count, 4)}
+
+
+PARTS = {
+    "edges": {"edge_matrix": [[0, 1]]},
+    "vertices without faces": {"vertex_matrix": np.vstack([SQUARE, [5.0, 5, 5]])},
+    "vertex colours": {"v_color_matrix": np.linspace(0.0, 1.0, 16).reshape(4, 4)},
+    "face colours": {"f_color_matrix": np.linspace(0.0, 1.0, 8).reshape(2, 4)},
+    "vertex quality": {"v_scalar_array": np.arange(4.0)},
+    "face quality": {"f_scalar_array": np.arange(2.0)},
+    "texture coordinates": {"w_tex_coords_matrix": np.linspace(0.0, 1.0, 12).reshape(6, 2)},
+}
+
+
+@pytest.mark.parametrize(
+    ("ending", "lost"),
+    [
+        ("ply", ["edges"]),
+        ("obj", ["vertex quality", "face quality"]),
+        ("off", ["edges", "vertex quality", "face quality", "texture coordinates"]),
+        ("stl", [part for part in PARTS if part != "face colours"]),
+        ("xyz", ["edges", *list(PARTS)[2:]]),
+    ],
+)
+def test_what_a_format_has_no_place_for(ending, lost, capsys):
+    for part, given in PARTS.items():
+        note = told(f"{part}.{ending}", capsys, **given)
+        assert (f"no {part}" in note) == (part in lost), (part, note)
+        assert ("no faces" in note) == (ending == "xyz")
+
+
+@pytest.mark.parametrize("ending", ["ply", "obj", "off", "stl", "wrl", "dae", "PLY", "dxf"])
+def test_an_ordinary_mesh_gives_no_note(ending, capsys):
+    assert told(f"a.{ending}", capsys) == ""
+
+
+def test_of_what_was_not_asked_for_nothing_is_missed(capsys):
+    assert told("a.stl", capsys, Wish(parts=("fc",)), **PARTS["vertex colours"]) == ""
+    note = told("b.stl", capsys, Wish(parts=("fc",)), **PARTS["edges"])
+    assert note == "Note: b.stl: .stl files hold no edges\n"
+
+
+def test_a_texture_goes_where_it_can(capsys):
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(SAMPLES / "bunny10k_textured.obj"))
+    save(ms, Path("a.wrl"), Wish())
+    assert capsys.readouterr().err == ""
+    save(ms, Path("a.off"), Wish())
+    assert capsys.readouterr().err == "Note: a.off: .off files hold no texture coordinates\n"
+
+
+@pytest.mark.parametrize("ending", ["ply", "obj", "off", "stl"])
+@pytest.mark.parametrize(("far", "merged"), [(0.0, 0), (2.0**20, 0), (2.0**24, 1), (1e9, 3)])
+def test_far_from_the_origin_vertices_fall_together(ending, far, merged, capsys):
+    grid = SQUARE + far
+    note = told(f"a.{ending}", capsys, vertex_matrix=grid)
+    if ending != "stl" or not merged:
+        assert note == ""
+    else:
+        assert note.startswith(
+            "Note: a.stl: so far from the origin, .stl files can't hold all vert"
+        )
+
+
+def test_small_details_are_no_matter_near_the_origin(capsys):
+    cube = meshes.cube()
+    assert told("a.stl", capsys, vertex_matrix=cube[0] + 3.0, face_matrix=cube[1]) == ""

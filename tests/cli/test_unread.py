@@ -1,0 +1,169 @@
+"""What loading leaves out is told, and nothing else."""
+
+import struct
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from meshlab_willmore.cli import inputs
+
+from .conftest import ONE_PIXEL, SAMPLES, call, cube_file, square_with_textures
+
+PLY = """ply
+format ascii 1.0
+element vertex 3
+property float x
+property float y
+property float z
+{more}element face 1
+property list uchar int vertex_indices
+end_header
+0 0 0{values}
+1 0 0{values}
+0 1 0{values}
+3 0 1 2
+"""
+
+
+def told(path, capsys):
+    inputs.loaded(Path(path))
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    lines = captured.err.splitlines()
+    assert all(line.startswith(f"Note: {path}: ") for line in lines)
+    return [line.removeprefix(f"Note: {path}: ") for line in lines]
+
+
+@pytest.mark.parametrize("names", [("red.png", "blue.png"), ("gone.jpg",), ("tex/a.png", "b.png")])
+def test_textures_that_are_not_found(names, capsys):
+    path = square_with_textures(".", *names)
+    assert told(path, capsys) == [
+        f"textures that were not found, and became dummy.png: {', '.join(names)}"
+    ]
+
+
+def test_textures_that_are_there_are_no_news(capsys):
+    path = square_with_textures(".", "red.png")
+    Path("red.png").write_bytes(ONE_PIXEL)
+    assert told(path, capsys) == []
+
+
+def test_names_with_blanks(capsys):
+    path = square_with_textures(".", "my red.png", "blue.png")
+    Path("my red.png").write_bytes(ONE_PIXEL)
+    Path("blue.png").write_bytes(ONE_PIXEL)
+    odd = "textures with blanks in the name, which PyMeshLab can't read: my red.png"
+    assert told(path, capsys) == [odd]
+    Path("a.ply").write_text(
+        PLY.format(more="", values="").replace(
+            "ascii 1.0\n", "ascii 1.0\ncomment TextureFile my red.png\n"
+        )
+    )
+    assert told("a.ply", capsys) == [odd]
+
+
+def test_a_material_file_that_is_not_there(capsys):
+    path = square_with_textures(".", "red.png")
+    Path("square.mtl").unlink()
+    (note,) = told(path, capsys)
+    assert note.startswith("some materials definitions were not found")
+
+
+BAD_NUMBERS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (float("nan"), 0, 0), (float("inf"), 1, 1)]
+FACES = [(0, 1, 2), (0, 1, 3), (0, 1, 4)]
+
+
+def as_off():
+    points = [f"{x} {y} {z}" for x, y, z in BAD_NUMBERS]
+    return "\n".join(
+        ["OFF", "5 3 0", *points, *(f"3 {a} {b} {c}" for a, b, c in FACES), ""]
+    ).encode()
+
+
+def as_obj():
+    points = [f"v {x} {y} {z}" for x, y, z in BAD_NUMBERS]
+    faces = [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in FACES]
+    return "\n".join([*points, *faces, ""]).encode()
+
+
+def as_stl():
+    corners = np.array(BAD_NUMBERS, "<f4")
+    blocks = [bytes(12) + corners[list(face)].tobytes() + bytes(2) for face in FACES]
+    return bytes(80) + struct.pack("<I", 3) + b"".join(blocks)
+
+
+@pytest.mark.parametrize(
+    ("name", "data"), [("a.off", as_off), ("a.obj", as_obj), ("a.stl", as_stl)]
+)
+def test_vertices_without_a_place(name, data, capsys):
+    Path(name).write_bytes(data())
+    assert told(name, capsys) == [
+        "vertices with NaN or infinite coordinates, left out with their faces: 2"
+    ]
+
+
+def test_faces_with_a_corner_twice(capsys):
+    Path("a.off").write_text("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 0 1\n")
+    assert told("a.off", capsys) == ["faces with a corner twice, left out: 1"]
+
+
+@pytest.mark.parametrize(
+    ("properties", "unknown"),
+    [
+        ("float temperature", ["temperature (vertex, float)"]),
+        ("list uchar int neighbours", ["neighbours (vertex, int)"]),
+        (
+            "float red;float green;float blue",
+            [f"{c} (vertex, float)" for c in ("red", "green", "blue")],
+        ),
+        ("double s;double t", ["s (vertex, double)", "t (vertex, double)"]),
+        ("uint8 red;uint8 green;uint8 blue", []),
+        ("float32 nx;float32 ny;float32 nz", []),
+        ("double quality", []),
+        ("float s;float t", []),
+    ],
+)
+def test_properties_that_are_not_read(properties, unknown, capsys):
+    names = properties.split(";")
+    value = " 2 1 1" if "list" in properties else " 1"
+    Path("a.ply").write_text(
+        PLY.format(more="".join(f"property {name}\n" for name in names), values=value * len(names))
+    )
+    expected = [f"properties that PyMeshLab does not read: {', '.join(unknown)}"] if unknown else []
+    assert told("a.ply", capsys) == expected
+
+
+def test_elements_that_are_not_read(capsys):
+    text = PLY.format(more="", values="").replace(
+        "end_header\n",
+        "element thing 1\nproperty float size\nelement none 0\nproperty float x\nend_header\n",
+    )
+    Path("a.ply").write_text(text + "5\n")
+    assert told("a.ply", capsys) == ["properties that PyMeshLab does not read: size (thing, float)"]
+
+
+def test_a_text_that_ends_early(capsys):
+    corners = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+    face = f"facet normal 0 0 1\nouter loop\n{corners}endloop\nendfacet\n"
+    Path("a.stl").write_text(f"solid a\n{face}endsolid a\n")
+    assert told("a.stl", capsys) == []
+    Path("b.stl").write_text(f"solid b\n{face}")
+    assert told("b.stl", capsys) == ["it ends before its endsolid; what comes after is missing"]
+    Path("c.xyz").write_text("0 0 0\n1 0 0\n0 1 0\n0 1\n")
+    assert told("c.xyz", capsys) == ["lines that are no points, left out: 1"]
+
+
+def test_ordinary_files_give_no_note(capsys):
+    for name in ("bone.ply", "airplane.obj", "colored_airplane.ply", "bunny10k_textured.obj"):
+        inputs.loaded(SAMPLES / name)
+    inputs.loaded(cube_file())
+    assert capsys.readouterr().err == ""
+
+
+def test_commands_tell_it_once():
+    Path("a.off").write_bytes(as_off())
+    note = "Note: a.off: vertices with NaN or infinite coordinates, left out with their faces: 2\n"
+    for result in (call("measure", "a.off", "a.off"), call("flip", "a.off", "out.ply")):
+        assert (result.exit_code, result.stderr) == (0, note)
+    assert call("measure", "a.off", "--json").stdout.startswith("[")

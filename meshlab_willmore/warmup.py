@@ -129,7 +129,11 @@ def _patch() -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     return np.stack([x, y, height], 1), faces
 
 
-def warm_up(say: Callable[[str], None], processes: int = 1) -> Warmed:
+def warm_up(
+    say: Callable[[str], None],
+    processes: int = 1,
+    end: Callable[[str], object] = lambda name: None,
+) -> Warmed:
     """Compile what is not in Numba's cache yet.
 
     Parameters
@@ -138,6 +142,8 @@ def warm_up(say: Callable[[str], None], processes: int = 1) -> Warmed:
         Gets a line for each step that took its time.
     processes : int
         In how many processes; with 1, in this one.
+    end : callable
+        Gets the name of each of the `steps` when it is through.
 
     Raises
     ------
@@ -153,6 +159,7 @@ def warm_up(say: Callable[[str], None], processes: int = 1) -> Warmed:
         if compiled:
             say(f"{name}: compiled in {sum(c.seconds for c in compiled):.1f} s")
         found += compiled
+        end(name)
     seconds = time.perf_counter() - start
     return Warmed(len(found), sum(c.seconds for c in found), seconds, folder)
 

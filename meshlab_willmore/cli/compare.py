@@ -7,11 +7,12 @@ import math
 import threading
 from collections.abc import Sequence
 from functools import cache, partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from . import playing, references, trials
+from . import progress, references, trials
 from .columns import in_columns
 from .errors import debug_option, wrong_use
 from .flip import check_options, filter_options, only
@@ -182,21 +183,18 @@ def _outcomes(task: trials.Task, rows: Sequence[Contender]) -> list[trials.Outco
         If not even the mesh as it is can be measured.
     """
     outcomes: list[trials.Outcome] = []
-    with playing.bar(len(rows), task.source) as bar:
+    with progress.shown(Path(task.source).name, len(rows)) as status:
         for contender in rows:
-            outcomes.append(trials.run(task, contender, partial(_show, bar, contender.name)))
+            status.next(f"{contender.name}: {trials.READING}")
+            outcomes.append(trials.run(task, contender, partial(_show, status, contender.name)))
             if outcomes[0].error:
                 break
-            if bar is not None:
-                bar.update(1)
     _tell(task, rows, outcomes)
     return outcomes
 
 
-def _show(bar: Any, name: str, word: str) -> None:
-    if bar is not None:
-        bar.current_item = f"{name}: {word}"
-        bar.render_progress()
+def _show(status: progress.Status, name: str, word: str) -> None:
+    status.begin(f"{name}: {word}")
 
 
 def _tell(task: trials.Task, rows: Sequence[Contender], outcomes: Sequence[trials.Outcome]) -> None:

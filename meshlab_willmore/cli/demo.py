@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from . import progress
 from .errors import debug_option
 
 EXAMPLES = """\b
@@ -37,7 +38,13 @@ def command(output: Path) -> None:
     from ..demo.story import tell
     from ..report.table import format_table
 
-    story = tell(output, say=lambda line: click.echo(line, err=True))
+    with progress.shown("demo") as status, progress.with_details(status):
+
+        def say(line: str) -> None:
+            click.echo(line, err=True)
+            status.begin(line)
+
+        story = tell(output, say)
     click.echo(format_table(story.stages))
     click.echo(f"Written to {output.resolve()}:")
     click.echo("  " + " ".join(file.name for file in story.files))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from . import progress
 from .errors import debug_option
 
 if TYPE_CHECKING:
@@ -31,11 +32,13 @@ def command(as_json: bool) -> None:
     from .checks import ALL
 
     findings = []
-    for check in ALL:
-        finding = check()
-        findings.append(finding)
-        if not as_json:
-            click.echo(_shown(finding))
+    with progress.shown("doctor", len(ALL)) as status:
+        for check in ALL:
+            status.next(getattr(check, "__name__", ""))
+            finding = check()
+            findings.append(finding)
+            if not as_json:
+                click.echo(_shown(finding))
     wrong = sum(not finding.ok for finding in findings)
     if as_json:
         click.echo(json.dumps({"fit": not wrong, "findings": [f._asdict() for f in findings]}))

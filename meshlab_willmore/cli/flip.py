@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import click
 
-from . import playing, told
+from . import progress, told
 from .errors import debug_option, reason
 from .masks import is_part, mask_option
 from .spelling import SeveralValues
@@ -85,9 +85,14 @@ def command(source: str, target: Path, parts: tuple[str, ...], force: bool, **gi
     check_options(chosen)
     path = only(expand([source]), source, "flip takes one, run takes all")
     check_target(target, force)
-    ms = loaded(path)
-    returned = _flipped(ms, path, chosen)
-    save(ms, target, Wish(parts, force, path.parent))
+    with progress.shown(path.name) as status:
+        status.begin("reading")
+        ms = loaded(path)
+        status.begin("flipping")
+        with progress.with_details(status):
+            returned = _flipped(ms, path, chosen)
+        status.begin(f"saving {target}")
+        save(ms, target, Wish(parts, force, path.parent))
     click.echo(f"{path} -> {target}: {told.flips(returned)}, {returned['seconds']:.1f} s")
 
 
@@ -133,7 +138,6 @@ def only(paths: list[Path], pattern: str, rule: str) -> Path:
 def _flipped(ms: pymeshlab.MeshSet, path: Path, given: dict[str, Any]) -> dict[str, Any]:
     from ..meshset.native import ERRORS
 
-    playing.tell_of_compiling()
     try:
         return ms.apply_filter(FILTER, **given)
     except ERRORS as error:

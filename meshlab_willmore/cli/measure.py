@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from . import progress
 from .columns import in_columns
 from .errors import WrongUse, debug_option, one_line, reason, stops_all, told_of
 from .inputs import asked_for, how_many_failed, loaded
+
+if TYPE_CHECKING:
+    import pymeshlab
 
 EXAMPLES = """\b
 Examples:
@@ -72,14 +76,21 @@ def _checked(names: Iterable[str]) -> tuple[list[Path], int]:
     return paths, len(found)
 
 
-def _measure_all(paths: Iterable[Path]) -> list[dict[str, Any]]:
-    return [row for path in paths if (row := _measured_or_told(path))]
+def _measure_all(paths: Sequence[Path]) -> list[dict[str, Any]]:
+    with progress.shown("measure", len(paths)) as status:
+        rows = []
+        for path in paths:
+            status.next(str(path))
+            rows.append(_measured_or_told(path, status))
+    return [row for row in rows if row]
 
 
-def _measured_or_told(path: Path) -> dict[str, Any]:
+def _measured_or_told(path: Path, status: progress.Status) -> dict[str, Any]:
     """The totals of one file; nothing if it can't be measured, which is said."""
     try:
-        return _measured(path)
+        ms = loaded(path)
+        with progress.with_details(status):
+            return _measured(ms, path)
     except Exception as error:
         if stops_all(error) or click.get_current_context().meta.get("debug"):
             raise
@@ -87,8 +98,7 @@ def _measured_or_told(path: Path) -> dict[str, Any]:
         return {}
 
 
-def _measured(path: Path) -> dict[str, Any]:
-    ms = loaded(path)
+def _measured(ms: pymeshlab.MeshSet, path: Path) -> dict[str, Any]:
     totals = ms.apply_filter("get_willmore_measures")
     mesh = ms.current_mesh()
     sizes = {"vertices": mesh.vertex_number(), "faces": mesh.face_number()}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from . import inputs
+from . import inputs, progress
 from .columns import counted
 
 if TYPE_CHECKING:
@@ -36,7 +36,9 @@ def loaded(job: Job, log: Log) -> pymeshlab.MeshSet:
     def note(ms: pymeshlab.MeshSet, path: Path) -> None:
         log.say(f"input {path} ({_size(ms)})")
 
-    ms = inputs.loaded(*job.inputs, after=note)
+    with progress.shown(job.name) as status:
+        status.begin("reading")
+        ms = inputs.loaded(*job.inputs, after=note)
     if len(job.inputs) > 1:
         ms.set_current_mesh(0)
     return ms
@@ -65,7 +67,9 @@ def save(ms: pymeshlab.MeshSet, job: Job, wishes: Wishes, log: Log) -> str:
     for place, (path, parts) in enumerate(zip(job.outputs, wishes.parts, strict=True)):
         if len(job.outputs) > 1:
             ms.set_current_mesh(layers[place])
-        files = saving.save(ms, path, saving.Wish(parts, wishes.force, origin))
+        with progress.shown(job.name) as status:
+            status.begin(f"saving {path}")
+            files = saving.save(ms, path, saving.Wish(parts, wishes.force, origin))
         log.say(f"output {' '.join(map(str, files))} ({_size(ms)})")
         texts.append(f"{path} ({_size(ms)})")
     return ", ".join(texts)

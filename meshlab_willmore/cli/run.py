@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
@@ -13,7 +13,6 @@ import click
 from . import inputs, outputs, playing, results, told
 from .columns import counted
 from .errors import debug_option, one_line, stops_all, told_of, wrong_use
-from .flip import FILTER
 from .masks import by_output, is_part, mask_option
 from .scripts import Source, is_script, source_of
 from .spelling import SeveralValues, of_today, spelled_out
@@ -149,8 +148,6 @@ def command(script: str | None, also: str | None, **given: Any) -> None:
         inputs.asked_for(given["inputs"]), given["patterns"], given["layers"], orders.force
     )
     runlog.check(given["log"], [Path(source.name), *(file for job in todo for file in job.files)])
-    if not orders.dry_run and _has_flips(orders.steps):
-        playing.tell_of_compiling()
     with (
         runlog.opened(None if orders.dry_run else given["log"]) as log,
         log.run_of(orders.source),
@@ -184,12 +181,6 @@ def _steps(source: Source, settings: Sequence[str]) -> tuple[Step, ...]:
         if warning.changes_result:
             click.echo(f"{source.name}: warning: {warning}", err=True)
     return found.reading.steps
-
-
-def _has_flips(steps: Iterable[Step]) -> bool:
-    from ..meshset.catalogue import find
-
-    return any(known.name == FILTER for step in steps if (known := find(step.filter)))
 
 
 def _run_all(orders: Orders, todo: Sequence[Job], log: Log) -> None:

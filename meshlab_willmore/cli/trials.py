@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from ..compare.contenders import Contender
 
 # What the process begins with, in this order.
+READING = "reading"
 WARMING = "warming up"
 RUNNING = "running"
 MEASURING = "measuring"

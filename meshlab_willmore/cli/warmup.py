@@ -6,6 +6,7 @@ import sys
 
 import click
 
+from . import progress
 from .columns import counted
 from .errors import debug_option
 
@@ -34,13 +35,14 @@ def command() -> None:
 
     quick_start.import_numba()
     from ..mesh.workers import core_count
-    from ..warmup import warm_up
+    from ..warmup import steps, warm_up
 
     def say(line: str) -> None:
         if is_terminal():
             click.echo(line, err=True)
 
-    say("Compiling what is not in the cache yet; this takes some minutes ...")
-    done = warm_up(say, core_count())
+    with progress.shown("warmup", len(steps())) as status, progress.with_details(status):
+        status.next("all that is not compiled yet")
+        done = warm_up(say, core_count(), lambda name: status.next(f"done with {name}"))
     what = f"{counted(done.compiled, 'kernel')} compiled" if done.compiled else "all is there"
     click.echo(f"{what}, in {done.seconds:.1f} s: {done.folder}")

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import pymeshlab
 
+from ..mesh.compiling import followed
 from ..report.camera import View, Window, view_from
 from ..report.table import Stage
 from .models import Surface, dented_cube, sampled_torus
@@ -130,9 +131,17 @@ def _tell_face(studio: Studio, path: Path, keep_one_of: int) -> None:
 
 def _warm_up(say: Say) -> None:
     """Compile the kernels now, so that the times in the table are those of the work."""
-    say("compiling (the first run only)")
+    has_said = False
+
+    def follow(name: str) -> None:
+        nonlocal has_said
+        if not has_said:
+            say("compiling (the first run only)")
+        has_said = True
+
     meshes = pymeshlab.MeshSet()
     meshes.add_mesh(pymeshlab.Mesh(*dented_cube()))
-    for name, given in FLIPS:
-        meshes.apply_filter(name, **given)
-    meshes.get_willmore_measures()
+    with followed(follow):
+        for name, given in FLIPS:
+            meshes.apply_filter(name, **given)
+        meshes.get_willmore_measures()

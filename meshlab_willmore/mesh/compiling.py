@@ -7,6 +7,7 @@ outermost count here.
 
 import contextlib
 import sys
+import threading
 import time
 from typing import NamedTuple
 
@@ -30,6 +31,7 @@ else:
     CAN_TELL = True
 
 COMPILE = "numba:compile"
+SECONDS_BETWEEN_LINES = 5.0
 _PACKAGE = __name__.partition(".")[0]
 
 
@@ -73,23 +75,64 @@ class _Listener(Listener):
 
 
 class _Teller(_Listener):
-    """Prints a line before the first compilation of a run."""
+    """Prints a line when the first compilation of a run begins, and how far it is after that."""
 
     def __init__(self):
         super().__init__()
         self.what = _PACKAGE
-        self.has_told = False
+        self.is_silent = False
+        self._name = ""
+        self._since = None
+        self._ticker = None
 
     def begin(self, name):
-        if self.has_told:
+        self._name = name
+        if self.is_silent:
             return
-        self.has_told = True
-        if sys.stderr is not None and sys.stderr.isatty():
-            print(
-                f"Compiling {self.what} once; this takes some seconds ...",
-                file=sys.stderr,
-                flush=True,
-            )
+        if self._since is None:
+            self._since = time.monotonic()
+            _say(f"Compiling {self.what} once; this takes some seconds ...")
+        # It does not live on in a process that was forked.
+        if _is_terminal() and not (self._ticker and self._ticker.is_alive()):
+            self._ticker = threading.Thread(target=self._tick, daemon=True)
+            self._ticker.start()
+
+    def end(self, name):
+        self._name = ""
+
+    def tell_how_far(self):
+        """Print what is compiled right now; returns whether anything is."""
+        name, since = self._name, self._since
+        if name and since is not None and not self.is_silent:
+            _say(f"  compiling {_short(name)}, {time.monotonic() - since:.0f} s so far")
+        return bool(name)
+
+    def _tick(self):
+        while True:
+            time.sleep(SECONDS_BETWEEN_LINES)
+            if not self.tell_how_far():
+                return
+
+    def for_a_run(self, what, is_silent):
+        """Begin anew, and return what brings the teller back to where it was."""
+        before = self.what, self.is_silent, self._since
+        self.what, self.is_silent, self._since = what, is_silent, None
+        return before
+
+    def back_to(self, before):
+        self.what, self.is_silent, self._since = before
+
+
+class _Follower(_Listener):
+    def __init__(self, follow):
+        super().__init__()
+        self._follow = follow
+
+    def begin(self, name):
+        self._follow(_short(name))
+
+    def end(self, name):
+        self._follow("")
 
 
 class _Forbidder(_Listener):
@@ -110,6 +153,19 @@ class _Counter(_Listener):
         self.found.append(Compiled(name, time.perf_counter() - self._start))
 
 
+def _is_terminal():
+    return sys.stderr is not None and sys.stderr.isatty()
+
+
+def _say(line):
+    if _is_terminal():
+        print(line, file=sys.stderr, flush=True)
+
+
+def _short(name):
+    return name.removeprefix(f"{_PACKAGE}.")
+
+
 def _is_ours(event):
     return _name(event).startswith(f"{_PACKAGE}.")
 
@@ -121,12 +177,15 @@ def _name(event):
 
 # In the whole process; what is called on arrays alone is told of once.
 _teller = _Teller()
+_followers: list[_Follower] = []
 register(COMPILE, _teller)
 
 
 @contextlib.contextmanager
 def announced(what, *, silent=False):
-    """If anything is compiled inside, say so in a line on the standard error, if it is a terminal.
+    """If anything is compiled inside, say so on the standard error, if it is a terminal.
+
+    What is compiled is told every few seconds until that is over.
 
     Parameters
     ----------
@@ -135,12 +194,28 @@ def announced(what, *, silent=False):
     silent : bool
         Say nothing.
     """
-    before = _teller.what, _teller.has_told
-    _teller.what, _teller.has_told = what, silent
+    before = _teller.for_a_run(what, silent or bool(_followers))
     try:
         yield
     finally:
-        _teller.what, _teller.has_told = before
+        _teller.back_to(before)
+
+
+@contextlib.contextmanager
+def followed(follow):
+    """Call `follow` with the name of each kernel that is compiled inside, and with "" after it.
+
+    The name is that in this package.
+
+    Nothing is printed then: who follows tells.
+    """
+    follower = _Follower(follow)
+    _followers.append(follower)
+    try:
+        with announced("", silent=True), install_listener(COMPILE, follower):
+            yield
+    finally:
+        _followers.remove(follower)
 
 
 @contextlib.contextmanager

@@ -36,6 +36,7 @@ from ..guards import space as spaces
 from ..guards.space import Space
 from ..mesh.halfedge import NONE, Mesh, flip, is_free, makes_new_edge
 from ..mesh.jit import generic, inner
+from ..mesh.status import report
 from .rules import CONVERGED, STOPPED, WORKING, Rules
 from .states import State, assign, better, copy_of, descend, finish, start_from
 
@@ -202,6 +203,7 @@ def _sweep(kernel, task, schedule, loss):
         for tried in range(0, edges, SLICE):
             draws = random.random((min(SLICE, edges - tried), 2))
             walk = Walk(*kernel(task, walk, draws, temperature))
+            report(f"temperature {sweep + 1} of {schedule.sweeps}, {walk.flips} flips")
             if walk.state == STOPPED:
                 return walk
     return walk._replace(state=CONVERGED)

@@ -38,6 +38,7 @@ from ..guards import space as spaces
 from ..guards.space import Space
 from ..mesh.halfedge import NONE, Mesh, flip, makes_new_edge
 from ..mesh.jit import generic, inner
+from ..mesh.status import report
 from . import rescoring
 from .heap import NEVER, Queue, empty_queue, first, update
 from .pairs import Pairs, insert, no_pairs, reserve
@@ -176,4 +177,5 @@ def run(kernel, mesh, rules, space=None):
     while progress.state == WORKING:
         task = task._replace(gone=reserve(task.gone, SLICE // SCORES_PER_FLIP))
         progress = Progress(*kernel(task, progress))
+        report(f"greedy, {progress.flips} flips, {task.queue.size[0]} edges left")
     return progress

@@ -36,6 +36,7 @@ from ..guards import space as spaces
 from ..guards.cuts import EVER, blocker
 from ..mesh.halfedge import NONE, apex, flip, makes_new_edge
 from ..mesh.jit import at, inner, jit
+from ..mesh.status import report
 from ..mesh.workers import crew
 from . import lists, peaks
 from .board import board_of, forbid
@@ -212,6 +213,7 @@ def run(kernel, mesh, rules, space=None, threads=None):
             board, done = _flip_all(board, chosen, first, rules.maxflips - progress.flips, number)
             flips, gain = progress.flips + done.flipped, progress.gain + done.gain
             progress = Progress(progress.scored, flips, gain, done.state)
+            report(f"round {number}, {flips} flips, {len(edges)} edges left")
             if done.state == STOPPED:
                 break
             refused = done.refused

@@ -18,6 +18,7 @@ import numpy as np
 
 from ..mesh.build import build, faces_of
 from ..mesh.halfedge import NONE, Mesh
+from ..mesh.status import stage
 from ..mesh.workers import crew
 from .rules import CONVERGED, Progress
 
@@ -100,7 +101,8 @@ def run(search, mesh, threads=None):
 def _search(work, start, stop):
     try:
         for place in range(start, stop):
-            work.found[place] = work.search(work.regions[place].mesh, work.halted)
+            with stage(f"part {place + 1} of {len(work.regions)}"):
+                work.found[place] = work.search(work.regions[place].mesh, work.halted)
     except BaseException:
         work.halted.append(True)
         raise

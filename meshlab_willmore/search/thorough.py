@@ -20,6 +20,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from ..guards import space as spaces
+from ..mesh.status import stage
 from . import greedy, variable_depth
 from .rules import Rules
 from .states import better, extend, finish, start_from
@@ -61,10 +62,13 @@ def run(kernels, preludes, mesh, rules, reach, space=None):
         return variable_depth.run(kernels.depth, kernels.greedy, at, left, reach, around)
 
     begin = start_from(mesh, spaces.no_space() if space is None else space)
-    found = extend(begin, chains, rules)
-    for prelude in preludes:
+    starts = 1 + len(preludes)
+    with stage(f"start 1 of {starts}"):
+        found = extend(begin, chains, rules)
+    for number, prelude in enumerate(preludes, start=2):
         descent = functools.partial(greedy.run, prelude.kernel)
         limited = prelude.rules._replace(maxflips=rules.maxflips)
-        start = extend(begin, descent, limited)
-        found = better(kernels, rules, found, extend(start, chains, rules))
+        with stage(f"start {number} of {starts}"):
+            start = extend(begin, descent, limited)
+            found = better(kernels, rules, found, extend(start, chains, rules))
     return finish(kernels, mesh, found)

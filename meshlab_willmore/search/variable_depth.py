@@ -44,6 +44,7 @@ from ..energy import delaunay
 from ..guards import space as spaces
 from ..mesh.halfedge import apex, flip, is_free, makes_new_edge
 from ..mesh.jit import generic, inner, jit
+from ..mesh.status import report
 from . import greedy, regions
 from .chains import Task, find_chain, no_chain, ring_around
 from .greedy import SLICE
@@ -132,6 +133,7 @@ def _work_off(kernel, task, progress, halted):
     progress = progress._replace(state=WORKING)
     while progress.state == WORKING and not halted:
         progress = Progress(*kernel(task, progress))
+        report(f"chains, {progress.flips} flips, {task.pending.ends[1]} edges left")
     return progress
 
 

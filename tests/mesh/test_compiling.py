@@ -50,6 +50,40 @@ def test_a_terminal_is_told_once():
     assert said(lambda: (quarter(4.0), half(4.0), other(4.0))) == ""
 
 
+def test_what_is_compiled_is_told_until_it_ends(monkeypatch):
+    now = [10.0]
+    monkeypatch.setattr(compiling.time, "monotonic", lambda: now[0])
+    teller = compiling._Teller()
+    stream = Terminal()
+    monkeypatch.setattr(teller, "_tick", lambda: None)
+    with contextlib.redirect_stderr(stream):
+        teller.begin("meshlab_willmore.search.one")
+        now[0] = 15.0
+        assert teller.tell_how_far()
+        teller.end("meshlab_willmore.search.one")
+        assert not teller.tell_how_far()
+        teller.begin("meshlab_willmore.search.other")
+        now[0] = 20.4
+        assert teller.tell_how_far()
+    assert stream.getvalue() == (
+        "Compiling meshlab_willmore once; this takes some seconds ...\n"
+        "  compiling search.one, 5 s so far\n"
+        "  compiling search.other, 10 s so far\n"
+    )
+
+
+def test_who_follows_tells_and_nothing_is_printed():
+    names = []
+
+    def run():
+        with compiling.followed(names.append), compiling.announced("it"):
+            kernels()[1](1.0)
+
+    assert said(run) == ""
+    assert [name.partition(".")[0] for name in names] == ["of_a_test", ""]
+    assert said(lambda: kernels()[0](1.0)) == LINE
+
+
 def test_each_run_that_compiles_tells():
     assert [said(lambda: kernels()[0](1.0)) for _ in range(2)] == [LINE, LINE]
 
@@ -143,7 +177,7 @@ def test_after_an_error_the_next_one_is_told_of():
 def test_a_numba_without_events_tells_nothing(monkeypatch):
     monkeypatch.setitem(sys.modules, "numba.core.event", None)
     copy = types.ModuleType("copy_of_compiling")
-    copy.__name__ = compiling.__name__
+    copy.__name__, copy.__package__ = compiling.__name__, compiling.__package__
     with open(compiling.__file__, encoding="utf-8") as source:
         exec(source.read(), copy.__dict__)
     assert not copy.CAN_TELL

@@ -1,0 +1,278 @@
+"""How far a command is: a line on a terminal that is redrawn, or whole lines in a log.
+
+While native filters, searches and the compiler work, a thread of its own goes on telling. On a
+terminal the line is drawn anew each second, and gone in the end. Where the standard error is no
+terminal, only what takes minutes is told of, in a line each minute: a log wants to show that a run
+is alive, and not much more.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import shutil
+import sys
+import threading
+import time
+import unicodedata
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
+from typing import Any, TextIO
+
+SECONDS_ON_A_TERMINAL = 1.0
+SECONDS_IN_A_LOG = 60.0
+
+_BAR = 16
+# In windows that are narrower there is room for nothing else.
+_ROOM_FOR_LABEL = 40
+_DOTS = "..."
+
+
+class Status:
+    """What is being done, since when, and how much of it is done.
+
+    Parameters
+    ----------
+    label : str
+        What it is about: a command or a file.
+    total : int
+        Number of parts; 0: it has none.
+    clock : callable
+        Seconds, from any time on.
+    """
+
+    def __init__(self, label: str, total: int = 0, clock: Callable[[], float] = time.monotonic):
+        self._label = _printable(label)
+        self._total = total
+        self._clock = clock
+        self._done = self._begun = 0
+        self._what = self._detail = ""
+        self._since = clock()
+        self._screen: _Screen | None = None
+
+    def begin(self, what: str) -> None:
+        """Something else is done from now on."""
+        self._what, self._detail, self._since = _printable(what), "", self._clock()
+
+    def next(self, what: str) -> None:
+        """The next part is begun; the one before is done."""
+        self._done = self._begun
+        self._begun += 1
+        self.begin(what)
+        if self._screen is not None:
+            self._screen.draw()
+
+    def end(self) -> None:
+        """All is done."""
+        self._done = self._total
+        if self._screen is not None and self._total:
+            self._screen.draw()
+
+    def detail(self, text: str) -> None:
+        """Say more of what is being done."""
+        self._detail = _printable(text)
+
+    def hide(self) -> None:
+        """Take the line off the terminal, until it is drawn again: something else is printed."""
+        if self._screen is not None:
+            self._screen.hide()
+
+    def line(self, columns: int) -> str:
+        """The line for a terminal, always shorter than so many columns."""
+        room = columns - 1
+        seconds = f", {self._seconds()} s" if self._what else ""
+        head = ""
+        if room >= _ROOM_FOR_LABEL:
+            bar = self._bar()
+            head = f"{_end_of(self._label, room // 3)}{bar}  "
+        text = _beginning_of(self._text(), room - _width(head) - len(seconds))
+        return _beginning_of(f"{head}{text}{seconds}", room)
+
+    def sentence(self) -> str:
+        """The whole line for a log."""
+        part = f" ({self._done + 1} of {self._total})" if self._total else ""
+        return f"{self._label}: {self._text()}{part}, {self._seconds()} s so far"
+
+    def _text(self) -> str:
+        return ": ".join(filter(None, (self._what, self._detail)))
+
+    def _seconds(self) -> int:
+        return int(self._clock() - self._since)
+
+    def _bar(self) -> str:
+        if not self._total:
+            return ""
+        full = _BAR * self._done // self._total
+        percent = 100 * self._done // self._total
+        return f"  [{'#' * full}{'-' * (_BAR - full)}] {percent:3d}%"
+
+
+@contextmanager
+def shown(label: str, total: int = 0) -> Iterator[Status]:
+    """Tell what is done inside, as the `Status` that this gives says it."""
+    status = Status(label, total)
+    stream = sys.stderr
+    with ExitStack() as stack:
+        if stream.isatty():
+            own = stack.enter_context(_own(stream))
+            screen = _Screen(own, lambda: status.line(_columns(own)))
+            status._screen = screen
+            stack.callback(screen.hide)
+            for name in ("stdout", "stderr"):
+                _replaced(stack, name, screen)
+            stack.enter_context(_repeated(screen.draw, SECONDS_ON_A_TERMINAL))
+            if total:
+                screen.draw()
+        else:
+            own = stack.enter_context(_own(stream))
+            stack.enter_context(
+                _repeated(lambda: print(status.sentence(), file=own, flush=True), SECONDS_IN_A_LOG)
+            )
+        yield status
+        status.end()
+
+
+@contextmanager
+def with_details(status: Status) -> Iterator[None]:
+    """What searches and the compiler tell inside are details of what is being done."""
+    from .. import quick_start
+
+    quick_start.import_numba()
+    from ..mesh import compiling
+    from ..mesh.status import heard_by
+
+    with heard_by(status.detail), compiling.followed(_compiling(status)):
+        yield
+
+
+def _compiling(status: Status) -> Callable[[str], None]:
+    def follow(name: str) -> None:
+        status.detail(f"compiling {name}" if name else "")
+
+    return follow
+
+
+class _Screen:
+    """One line at the bottom of a terminal."""
+
+    def __init__(self, stream: TextIO, line: Callable[[], str]) -> None:
+        self._stream = stream
+        self._line = line
+        self._drawn = 0
+        self._lock = threading.RLock()
+
+    def draw(self) -> None:
+        with self._lock:
+            line = self._line()
+            width = _width(line)
+            self._put(f"\r{line}{' ' * max(0, self._drawn - width)}")
+            self._drawn = max(width, 0)
+
+    def hide(self) -> None:
+        with self._lock:
+            if self._drawn:
+                self._put(f"\r{' ' * self._drawn}\r")
+                self._drawn = 0
+
+    def _put(self, text: str) -> None:
+        # The terminal may be what is gone.
+        with suppress(OSError, ValueError):
+            self._stream.write(text)
+            self._stream.flush()
+
+
+class _Above:
+    """A standard stream; what is printed on it stands above the line of a screen."""
+
+    def __init__(self, stream: Any, screen: _Screen) -> None:
+        self._stream = stream
+        self._screen = screen
+
+    def write(self, text: Any) -> Any:
+        self._screen.hide()
+        return self._stream.write(text)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
+
+
+def _replaced(stack: ExitStack, name: str, screen: _Screen) -> None:
+    before = getattr(sys, name)
+    setattr(sys, name, _Above(before, screen))
+    stack.callback(setattr, sys, name, before)
+
+
+@contextmanager
+def _own(stream: Any) -> Iterator[TextIO]:
+    """The stream past its descriptor, which is turned away while native filters run."""
+    try:
+        number = os.dup(stream.fileno())
+    except (OSError, io.UnsupportedOperation):
+        yield stream
+        return
+    with open(number, "w", encoding=stream.encoding, errors="replace") as own:
+        yield own
+
+
+@contextmanager
+def _repeated(action: Callable[[], object], seconds: float) -> Iterator[None]:
+    """Do something every so many seconds, in a thread of its own."""
+    ended = threading.Event()
+
+    def repeat() -> None:
+        while not ended.wait(seconds):
+            with suppress(OSError, ValueError):
+                action()
+
+    thread = threading.Thread(target=repeat, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        thread.join()
+
+
+# --- the width of text -------------------------------------------------------------------------
+
+
+def _columns(stream: TextIO) -> int:
+    try:
+        return os.get_terminal_size(stream.fileno()).columns or shutil.get_terminal_size().columns
+    except (OSError, ValueError):
+        return shutil.get_terminal_size().columns
+
+
+def _width(text: str) -> int:
+    return sum(map(_columns_of, text))
+
+
+def _columns_of(letter: str) -> int:
+    if unicodedata.combining(letter):
+        return 0
+    return 2 if unicodedata.east_asian_width(letter) in "WF" else 1
+
+
+def _printable(text: str) -> str:
+    return "".join(letter if letter.isprintable() else "?" for letter in text)
+
+
+def _beginning_of(text: str, columns: int) -> str:
+    """The text, or its beginning and dots, in at most so many columns."""
+    if _width(text) <= columns:
+        return text
+    room = columns - len(_DOTS)
+    kept = ""
+    for letter in text:
+        room -= _columns_of(letter)
+        if room < 0:
+            break
+        kept += letter
+    return f"{kept}{_DOTS}" if columns >= len(_DOTS) else text[: max(columns, 0)]
+
+
+def _end_of(text: str, columns: int) -> str:
+    """The text, or dots and its end: in a path that tells most."""
+    if _width(text) <= columns:
+        return text
+    return _beginning_of(text[::-1], columns)[::-1]

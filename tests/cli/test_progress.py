@@ -1,0 +1,133 @@
+"""The line that tells how far a command is."""
+
+import contextlib
+import io
+import sys
+
+import pytest
+
+from meshlab_willmore.cli import progress
+from meshlab_willmore.cli.progress import Status, shown
+
+LONG = "/a/very/long/path/that/nobody/would/ever/want/to/read/in/full/of/the/scan_0017.ply"
+WIDE = "\u9762" * 40
+
+
+class Clock:
+    now = 0.0
+
+    def __call__(self):
+        return self.now
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+@contextlib.contextmanager
+def terminal(monkeypatch):
+    """A terminal on which only what is begun is drawn, as no time passes."""
+    monkeypatch.setattr(progress, "SECONDS_ON_A_TERMINAL", 3600.0)
+    with contextlib.redirect_stderr(Terminal()) as stream:
+        yield stream
+
+
+def columns(text):
+    return sum(2 if letter == "\u9762" else 1 for letter in text)
+
+
+def test_what_is_done_and_since_when():
+    clock = Clock()
+    status = Status("scan.ply", 4, clock)
+    status.next("reading")
+    clock.now = 2.0
+    status.next("flipping")
+    clock.now = 14.9
+    status.detail("round 7, 52 flips")
+    line = "scan.ply  [####------------]  25%  flipping: round 7, 52 flips, 12 s"
+    assert status.line(80) == line
+    assert status.sentence() == "scan.ply: flipping: round 7, 52 flips (2 of 4), 12 s so far"
+    status.begin("saving")
+    assert status.line(80) == "scan.ply  [####------------]  25%  saving, 0 s"
+
+
+@pytest.mark.parametrize("width", [200, 132, 80, 60, 41, 40, 39, 20, 10, 5, 3, 1])
+@pytest.mark.parametrize("total", [0, 1000])
+@pytest.mark.parametrize("name", ["a.ply", LONG, WIDE])
+def test_the_line_never_wraps(width, total, name):
+    status = Status(name, total)
+    status.begin(name)
+    status.detail("chains, 4711 flips, 42500 edges left, and more")
+    assert columns(status.line(width)) < max(width, 1)
+
+
+def test_of_a_long_path_the_end_is_shown():
+    assert Status(LONG, 2).line(80).startswith("...ll/of/the/scan_0017.ply  [")
+
+
+def test_letters_that_would_move_the_cursor_are_not_drawn():
+    status = Status("a\nb\x1b[2J.ply")
+    status.begin("reading")
+    assert status.line(80) == "a?b?[2J.ply  reading, 0 s"
+
+
+def test_the_line_is_gone_when_something_is_printed_and_in_the_end(monkeypatch):
+    with terminal(monkeypatch) as stream:
+        with shown("it", 1) as status:
+            status.next("working")
+            print("Note: something", file=sys.stderr)
+            assert sys.stderr is not stream
+        assert sys.stderr is stream
+    before, _, after = stream.getvalue().partition("Note: something\n")
+    blanks = " " * len("it  [----------------]   0%  working, 0 s")
+    assert before.endswith(f"working, 0 s\r{blanks}\r")
+    assert "100%" in after
+    assert after.endswith(" \r")
+
+
+def test_the_standard_output_stands_above_the_line(monkeypatch, capsys):
+    with terminal(monkeypatch) as stream, shown("it", 1) as status:
+        status.next("working")
+        print("result")
+        assert stream.getvalue().endswith(" \r")
+    assert capsys.readouterr().out == "result\n"
+    assert stream.getvalue().count("it  [") == 3
+
+
+def test_a_log_hears_nothing_of_what_is_quick(capsys):
+    with shown("it", 1) as status:
+        status.next("working")
+        status.detail("much")
+    assert capsys.readouterr() == ("", "")
+
+
+def test_a_log_gets_whole_lines_of_what_takes_long(monkeypatch):
+    actions = []
+    repeated = progress._repeated
+
+    def noted(action, seconds):
+        actions.append((action, seconds))
+        return repeated(action, 3600.0)
+
+    monkeypatch.setattr(progress, "_repeated", noted)
+    with contextlib.redirect_stderr(io.StringIO()) as stream, shown("it", 2) as status:
+        status.next("working")
+        ((action, seconds),) = actions
+        action()
+    assert seconds == 60.0
+    assert stream.getvalue() == "it: working (1 of 2), 0 s so far\n"
+
+
+def test_it_goes_on_while_the_streams_are_turned_away(tmp_path, monkeypatch):
+    """Native filters are muted by way of the descriptors."""
+    from meshlab_willmore.meshset.native import muted
+
+    path = tmp_path / "terminal"
+    with path.open("w", encoding="utf-8") as stream:
+        stream_number = stream.fileno()
+        own = progress._own(stream)
+        with own as past, muted():
+            print("still here", file=past, flush=True)
+        assert stream.fileno() == stream_number
+    assert path.read_text(encoding="utf-8") == "still here\n"

@@ -1,0 +1,63 @@
+"""How far a search is, for whoever listens."""
+
+import threading
+
+import pytest
+
+from meshlab_willmore import optimize_flips
+from meshlab_willmore.mesh.status import heard_by, report, stage
+from meshlab_willmore.optimize import SEARCHES
+from tests import meshes
+
+
+def test_stages_stand_before_what_is_reported():
+    heard = []
+    report("nobody hears")
+    with heard_by(heard.append):
+        with stage("start 2 of 3"):
+            report("5 flips")
+            with stage("part 1 of 2"):
+                report("6 flips")
+        report("done")
+    report("nobody hears")
+    assert heard == [
+        "start 2 of 3",
+        "start 2 of 3, 5 flips",
+        "start 2 of 3, part 1 of 2",
+        "start 2 of 3, part 1 of 2, 6 flips",
+        "done",
+    ]
+
+
+def test_other_threads_are_not_heard():
+    heard = []
+
+    def work():
+        with stage("elsewhere"):
+            report("more")
+
+    with heard_by(heard.append):
+        thread = threading.Thread(target=work)
+        thread.start()
+        thread.join()
+        report("here")
+    assert heard == ["here"]
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize(
+    ("search", "words"),
+    [
+        ("parallel greedy", "round 1, "),
+        ("greedy", " edges left"),
+        ("variable depth", "chains, "),
+        ("annealing", "temperature 3 of 3, "),
+        ("thorough", "start 3 of 3, chains, "),
+    ],
+)
+def test_every_search_tells_how_far_it_is(search, words):
+    heard = []
+    with heard_by(heard.append):
+        optimize_flips(*meshes.bumpy_sphere(60), energy="willmore", search=search, sweeps=3)
+    assert any(words in text for text in heard)
+    assert search in SEARCHES

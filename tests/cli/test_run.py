@@ -373,6 +373,16 @@ def test_a_log_on_the_terminal(script, cube):
     assert result.stdout.splitlines()[-1].startswith("done, ")
 
 
+def test_what_an_old_step_does_otherwise_today_is_told(cube):
+    script = script_file(("Box", {}), ("Convex Hull", {"reorient": ("RichBool", "true")}))
+    result = call("run", script, "-i", cube, "--dry-run")
+    assert (result.exit_code, result.stderr) == (
+        0,
+        "script.mlx: warning: step 2 (Convex Hull), parameter 'reorient': is ignored: the filter "
+        "has had none such since MeshLab 2017.06\n",
+    )
+
+
 def test_settings_replace_values_of_the_script(script, cube):
     arguments = ["--set", "Taubin Smooth.stepsmoothnum=7", "--set", "1.maxflips=3"]
     result = call("run", script, "-i", cube, "-l", "-", *arguments)

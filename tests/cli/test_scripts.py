@@ -71,7 +71,87 @@ def test_lint_wrong_use(arguments, line):
     assert result.stderr.startswith(f"Error: {line}")
 
 
+HISTORIC = """<!DOCTYPE FilterScript>
+<FilterScript>
+ <filter name="Surface Reconstruction: Poisson">
+  <Param type="RichInt" name="OctDepth" value="7"/>
+  <Param type="RichFloat" name="SamplesPerNode" value="1"/>
+  <Param type="RichFloat" name="Offset" value="2"/>
+ </filter>
+ <filter name="Change the current layer">
+  <Param type="RichMesh" name="mesh" value="1"/>
+ </filter>
+ <filter name="Transform: Rotate">
+  <Param name="ToAll" value="true"/>
+ </filter>
+</FilterScript>
+"""
+
+
+def test_warnings_have_lines_and_are_no_faults():
+    Path("a.mlx").write_text(HISTORIC)
+    result = call("lint", "a.mlx")
+    assert (result.exit_code, result.stderr) == (0, "")
+    poisson = "a.mlx: warning: step 1 (Surface Reconstruction: Poisson)"
+    rotate = "a.mlx: warning: step 3 (Transform: Rotate), parameter 'ToAll'"
+    assert result.stdout.splitlines() == [
+        f"{poisson}: is 'Surface Reconstruction: Screened Poisson' in today's MeshLab: the "
+        "screened algorithm took its place: the surface differs",
+        f"{poisson}, parameter 'OctDepth': is 'depth' today",
+        f"{poisson}, parameter 'SamplesPerNode': is 'samplesPerNode' today",
+        f"{poisson}, parameter 'Offset': is ignored: the filter has had none such since MeshLab "
+        "2016.12",
+        "a.mlx: warning: step 2 (Change the current layer): MeshLab has no such step any more",
+        f"{rotate}: is 'allLayers' today",
+        f"{rotate}: has no type; it is read as RichBool, the filter's own",
+        "a.mlx: fine, 3 steps",
+    ]
+
+
+def test_faults_of_form_and_names_come_in_one_go():
+    Path("a.mlx").write_text(
+        "<FilterScript><filter name='Taubin Smoth'/><Filter/>"
+        "<filter name='Taubin Smooth'><Param name='mue' type='RichFloat' value='x'/></filter>"
+        "</FilterScript>"
+    )
+    result = call("lint", "a.mlx")
+    assert result.exit_code == 1
+    said = [line.removeprefix("a.mlx: ").split(":")[0] for line in result.stdout.splitlines()]
+    assert said == [
+        "<Filter> has no place in <FilterScript> (line 1); did you mean <filter>?",
+        "step 1 (Taubin Smoth)",
+        "step 2 (Taubin Smooth), parameter 'mue'",
+        "step 2 (Taubin Smooth), parameter 'mue'",
+    ]
+
+
 # convert
+
+
+def test_old_names_become_those_of_today():
+    Path("old.mlx").write_text(HISTORIC)
+    result = call("convert", "old.mlx", "new.mlx")
+    assert result.exit_code == 0
+    told = result.stdout.splitlines()
+    assert told[0] == "old.mlx -> new.mlx: 3 of 3 steps"
+    assert [line.partition(": ")[0] for line in told[1:]] == ["not as before"] * 2
+    new = script.read("new.mlx")
+    assert [(step.filter, [(p.name, p.type, p.value) for p in step.params]) for step in new] == [
+        (
+            "Surface Reconstruction: Screened Poisson",
+            [("depth", "RichInt", 7), ("samplesPerNode", "RichFloat", 1.0)],
+        ),
+        ("Change the current layer", [("mesh", "RichMesh", 1)]),
+        ("Transform: Rotate", [("allLayers", "RichBool", True)]),
+    ]
+    assert [w.text for w in script.warnings("new.mlx")] == ["MeshLab has no such step any more"]
+
+
+def test_for_meshlab_steps_that_it_has_no_more_are_left_out():
+    Path("old.mlx").write_text(HISTORIC)
+    told = call("convert", "old.mlx", "new.mlx", "--meshlab").stdout.splitlines()
+    assert told[-1] == "left out: step 2, Change the current layer"
+    assert len(script.read("new.mlx")) == 2
 
 
 def test_an_old_script_becomes_one_of_today():

@@ -88,3 +88,13 @@ def test_what_can_not_be_is_named(written, text):
     assert caught.value.message.startswith(f"--set {written}: ")
     assert text in caught.value.message
     assert "\n" not in caught.value.message
+
+
+def test_old_names_can_be_set_and_todays_take_the_place_of_theirs():
+    old = Step("Transform: Rotate", (Param("ToAll", "RichBool", False),))
+    today = Step("Transform: Rotate", (Param("allLayers", "RichBool", True),))
+    for written in ("1.allLayers=true", "1.alllayers=true", "1.ToAll=true"):
+        assert with_settings([old], [written]) == (today,)
+    filling = Step("Vertex Color Filling", tuple(Param(c, "RichFloat", 9.0) for c in "rgb"))
+    (step,) = with_settings([filling], ["1.color1=1 2 3"])
+    assert step.params == (Param("color1", "RichColor", (1, 2, 3, 255)),)

@@ -6,9 +6,9 @@ import pymeshlab
 import pytest
 
 from meshlab_willmore.meshset import catalogue, native
-from meshlab_willmore.meshset.check import faults_of, resolve
-from meshlab_willmore.mlx.read import read_bytes
-from meshlab_willmore.mlx.steps import Fault, Param, Percentage, ScriptError, Step
+from meshlab_willmore.meshset.check import examine, faults_of, resolve
+from meshlab_willmore.mlx.read import read_bytes, reading_of
+from meshlab_willmore.mlx.steps import Fault, Param, Percentage, Reading, ScriptError, Step
 from tests.meshset.conftest import FLIP, set_of
 
 FLIP_NAME = "Willmore flipping optimization"
@@ -24,6 +24,7 @@ REMESH_PARAMS = (
 HAUSDORFF = "Hausdorff Distance"
 MATRIX = "Matrix: Set/Copy Transformation"
 TAUBIN = "Taubin Smooth"
+MISTYPED = "is given as {}, but is a {}: PyMeshLab would read {}; write type='{}'"
 NEEDS_MESH = "needs a mesh; give an input, or begin with a filter that creates one"
 
 
@@ -298,6 +299,89 @@ def test_all_faults_are_told_in_order():
         (5, "input_file"),
         (5, "output_file"),
     ]
+
+
+def said_of(*body, mesh_ids=None):
+    """All faults of the steps of a script's text, of their form and of their names."""
+    reading = reading_of(f"<FilterScript>{''.join(body)}</FilterScript>".encode(), "s.mlx")
+    faults = examine(reading, mesh_ids).faults
+    return [(fault.step, fault.param, fault.text) for fault in faults if fault.step]
+
+
+def test_faults_of_the_form_hide_none_of_the_names_or_values():
+    assert said_of(
+        step(TAUBIN, param("lambd", "RichFloat", value="x"), param("mu", "RichInt", value="y")),
+        step("Taubin Smoth"),
+        step(REMESH, param("FeatureDeg", "RichFloat", value="x"), share("TargetLen", 0.5)),
+        step(TAUBIN, param("Selected", "RichFloat", value=1)),
+    ) == [
+        (1, "lambd", "value='x' is not a number"),
+        (1, "mu", "value='y' is not a whole number"),
+        (1, "lambd", "no such parameter; did you mean 'lambda'?"),
+        (1, "mu", MISTYPED.format("RichInt", "RichFloat", "zero", "RichFloat")),
+        (
+            2,
+            "",
+            "no such filter; did you mean 'Taubin Smooth' or 'Laplacian Smooth' or 'Depth Smooth'?",
+        ),
+        (3, "FeatureDeg", "value='x' is not a number"),
+        (4, "Selected", MISTYPED.format("RichFloat", "RichBool", "false", "RichBool")),
+    ]
+
+
+def test_what_follows_from_a_fault_is_not_told():
+    """A parameter that can't be read is not missing, and what is not read may make a mesh."""
+    cameras = "Import cameras for active rasters from file"
+    assert said_of("<Filter name='Box/Cube'/>", step(TAUBIN), mesh_ids=()) == []
+    assert said_of(step(cameras, param("ImportFile", "RichOpenFile", value="x"))) == [
+        (1, "ImportFile", "attribute 'exts_cardinality' is missing")
+    ]
+    assert said_of(step(cameras, "<Param type='RichInt' value='1'/>")) == [
+        (1, "", "the parameter (line 1) has no name")
+    ]
+    assert said_of("<filter/>", step(TAUBIN)) == [(1, "", "the filter (line 1) has no name")]
+    assert said_of(f"<filter name='{cameras}'>") == []
+    twice = param("mu", "RichFloat", value=1) * 2
+    assert said_of(step(TAUBIN, twice)) == [(1, "mu", "is given twice")]
+
+
+def test_faults_of_both_kinds_are_cut_short_together():
+    body = [step(TAUBIN, param("mu", "RichFloat", value="x")), step("nonsense")] * 80
+    faults = examine(
+        reading_of(f"<FilterScript>{''.join(body)}</FilterScript>".encode(), "s")
+    ).faults
+    assert len(faults) == 101
+    assert [fault.step for fault in faults[:4]] == [1, 2, 3, 4]
+    assert faults[100] == Fault("has more than 100 faults; these are the first")
+
+
+def test_a_parameter_without_a_type_takes_the_filters_own():
+    body = (
+        "<filter name='Transform: Rotate'><Param name='angle' value='90'/>"
+        "<Param name='Freeze' value='True'/><Param name='rotAxis' value='Y axis'/>"
+        "<Param name='customAxis' x='0' y='0' z='1'/></filter>"
+        "<filter name='Vertex Color Filling'><Param name='color1' r='1' g='2' b='3' a='255'/>"
+        "</filter>"
+    )
+    found = examine(reading_of(f"<FilterScript>{body}</FilterScript>".encode(), "s"))
+    assert found.faults == ()
+    assert [call.given for call in found.calls] == [
+        {"angle": 90.0, "freeze": True, "rotaxis": 1, "customaxis": (0.0, 0.0, 1.0)},
+        {"color1": (1, 2, 3, 255)},
+    ]
+    assert [(w.step, w.param) for w in found.warnings] == [
+        (1, "angle"),
+        (1, "Freeze"),
+        (1, "rotAxis"),
+        (1, "customAxis"),
+        (2, "color1"),
+    ]
+    assert found.warnings[0].text == "has no type; it is read as RichDynamicFloat, the filter's own"
+    assert not any(warning.changes_result for warning in found.warnings)
+
+
+def test_the_old_form_without_types_needs_none():
+    assert examine(Reading(steps_of(old_step(TAUBIN, mu="1")))).warnings == ()
 
 
 def test_no_more_faults_than_anyone_reads():

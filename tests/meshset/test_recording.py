@@ -525,3 +525,25 @@ def test_a_percentage_is_one_of_the_mesh_at_hand_when_the_step_runs(tmp_path):
         iterations=2, targetlen=pymeshlab.PercentageValue(5)
     )
     assert state(ms) == state(called)
+
+
+@pytest.mark.parametrize(
+    ("name", "param"),
+    [
+        ("Transform: Scale", '<Param name="axisX" type="RichFloat" value="2"/>'),
+        ("Transform: Scale, Normalize", '<Param name="axisX" value="2"/>'),
+        (" Transform: Scale, Normalize ", '<Param name="axisX" type="RichFloat" value="2"/>'),
+        ("compute_matrix_from_scaling_or_normalization", '<Param name="axisx" value="2"/>'),
+    ],
+    ids=["old name", "no type", "blanks", "names of PyMeshLab"],
+)
+def test_a_script_whose_names_only_we_know_is_loaded_and_applied(name, param, tmp_path):
+    ms = pymeshlab.MeshSet()
+    ms.create_cube()
+    path = tmp_path / "s.mlx"
+    path.write_text(f'<FilterScript><filter name="{name}">{param}</filter></FilterScript>')
+    ms.load_filter_script(str(path))
+    ms.apply_filter_script()
+    assert ms.current_mesh().bounding_box().dim_x() == pytest.approx(2)
+    ms.save_filter_script(str(path))
+    assert names(path) == ["Transform: Scale, Normalize"]

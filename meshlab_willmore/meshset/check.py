@@ -98,6 +98,8 @@ def examine(reading: Reading, mesh_ids: Collection[int] | None = None) -> Findin
     What follows from a fault of the reading is no fault of its own.
     """
     checker = _Checker(mesh_ids)
+    if reading.is_loose:
+        checker.warnings.append(ScriptWarning(_LOOSE))
     calls: list[Call] = []
     with contextlib.suppress(_EnoughError):
         for number, step in enumerate(reading.steps, start=1):
@@ -114,6 +116,10 @@ def _merged(read: Iterable[Fault], checked: Iterable[Fault]) -> tuple[Fault, ...
     return (*faults[:MOST_FAULTS], _MORE) if len(faults) > MOST_FAULTS else tuple(faults)
 
 
+_LOOSE = (
+    "is no XML: attributes stand without a blank between them, or twice; MeshLab reads it all the "
+    "same"
+)
 _MORE = Fault(f"has more than {MOST_FAULTS} faults; these are the first")
 
 

@@ -17,6 +17,7 @@ from defusedxml import EntitiesForbidden, ExternalReferenceForbidden
 from defusedxml.expatreader import DefusedExpatParser
 
 from .elements import ROOT, EnoughError, Reader
+from .loose import as_xml
 from .source import bytes_of, text_of
 from .steps import Reading, ScriptError, Step
 from .words import quoted
@@ -71,26 +72,34 @@ def reading_of(data: bytes, source: str) -> Reading:
     """
     text = text_of(data, source)
     reader = Reader()
-    with suppress(EnoughError):
-        _parse(text, reader)
+    may_be_loose = _parse(text, reader)
+    if is_loose := may_be_loose and (xml := as_xml(text)) != text:
+        reader = Reader()
+        _parse(xml, reader)
     if not reader.is_script:
         raise ScriptError(source, reader.faults)
-    return reader.result()
+    return reader.result()._replace(is_loose=is_loose)
 
 
-def _parse(text: str, reader: Reader) -> None:
+def _parse(text: str, reader: Reader) -> bool:
+    """Let a reader go through a text; whether MeshLab may read it though it is no XML."""
     parser = _Parser(reader)
-    try:
-        parser.feed(text)
-        parser.close()
-    except EntitiesForbidden as error:
-        reader.add(f"declares the entity {quoted(error.name)}; a filter script has no entities")
-    except ExternalReferenceForbidden as error:
-        reader.add(f"refers to {quoted(str(error.sysid))}; a filter script stands by itself")
-    except SAXParseException as error:
-        reader.add(_not_well_formed(error))
+    may_be_loose = False
+    with suppress(EnoughError):
+        try:
+            parser.feed(text)
+            parser.close()
+        except EntitiesForbidden as error:
+            reader.add(f"declares the entity {quoted(error.name)}; a filter script has no entities")
+        except ExternalReferenceForbidden as error:
+            reader.add(f"refers to {quoted(str(error.sysid))}; a filter script stands by itself")
+        except SAXParseException as error:
+            may_be_loose = error.getMessage() in _LOOSE
+            reader.add(_not_well_formed(error))
+    return may_be_loose
 
 
+_LOOSE = {errors.XML_ERROR_INVALID_TOKEN, errors.XML_ERROR_DUPLICATE_ATTRIBUTE}
 _TRUNCATED = {errors.XML_ERROR_NO_ELEMENTS, errors.XML_ERROR_UNCLOSED_TOKEN}
 
 

@@ -140,12 +140,15 @@ class Reading(NamedTuple):
         By a step's number.
     has_comments : bool
         Whether there are comments, which no step holds.
+    is_loose : bool
+        Whether it is XML only with blanks between attributes, and each of them once.
     """
 
     steps: tuple[Step, ...]
     faults: tuple[Fault, ...] = ()
     gaps: Mapping[int, Gap] = MappingProxyType({})
     has_comments: bool = False
+    is_loose: bool = False
 
 
 class ScriptError(ValueError):

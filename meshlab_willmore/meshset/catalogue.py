@@ -109,7 +109,7 @@ def closest(name: str) -> list[str]:
 
     They are MeshLab's names or PyMeshLab's, whichever it resembles more.
     """
-    known = everything()
+    known = (*everything(), *map(_of_document, document.STEPS))
     meshlab, ours = [k.meshlab_name for k in known if k.meshlab_name], [k.name for k in known]
     return max(
         (similar(name, names) for names in (meshlab, ours)),

@@ -112,6 +112,8 @@ class Todays:
 
     def _in_todays_choices(self, own: KnownParam, param: Param) -> Param:
         """The parameter; an enum whose choices stood in another order gets today's index."""
+        if not param.type and isinstance(param.value, str) and param.value not in own.choices:
+            return self._by_old_choice(own, param)
         if param.type != "RichEnum" or not isinstance(param.value, int):
             return param
         details = dict(param.details)
@@ -126,13 +128,21 @@ class Todays:
                 return self._renumbered(own, param, old.old[param.value], old)
         return param
 
+    def _by_old_choice(self, own: KnownParam, param: Param) -> Param:
+        """The parameter; a choice that is given by the name that it had gets today's index."""
+        for old in old_names.choices_of(self._known.name, own.name):
+            if param.value in old.old:
+                self._make_older(old_names.age(old.until))
+                return param._replace(value=old.now[old.old.index(str(param.value))])
+        return param
+
     def _renumbered(
         self, own: KnownParam, param: Param, name: str, old: old_names.OldChoices
     ) -> Param:
         assert isinstance(param.value, int)
         index = old.now[param.value]
         today = own.choices[index]
-        if name != today:
+        if name != today and name in own.choices:
             more = f"; {old.note}" if old.note else ""
             text = f"choice {param.value}, {quoted(name)}, is {index}, {today!r}, today{more}"
             self.remarks.append(Remark(param.name, text))

@@ -172,6 +172,17 @@ def test_names_that_meshlab_mixed_up_stand_for_what_was_done():
     assert "'By Area'" in warnings_of(step)[1].text
 
 
+def test_choices_may_be_given_by_the_names_that_they_had():
+    for choice, index in [("Border_Distance", 2), ("Region Area", 3)]:
+        assert one("Voronoi Sampling", colorStrategy=choice)[1] == {"colorstrategy": index}
+    assert one(TRANSLATE, traslMethod="Center on BBox")[1] == {"traslmethod": 1}
+
+
+def test_choices_that_are_only_reworded_are_no_news():
+    choices = ("per-Vertex", "per-Face")
+    assert warnings_of(Step("Ambient Occlusion", (enum("occMode", 1, *choices),))) == ()
+
+
 def test_what_changes_the_result_is_told_apart_from_what_is_called_otherwise():
     step = Step(
         "Surface Reconstruction: Poisson",

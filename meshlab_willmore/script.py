@@ -167,10 +167,10 @@ def examined(script: Script, mesh_ids: Collection[int] | None = None) -> Finding
         data = bytes_of(Path(script))
     except ScriptError as error:
         return _unreadable(error)
-    return examined_text(data, str(script), mesh_ids)
+    return examined_bytes(data, str(script), mesh_ids)
 
 
-def examined_text(data: bytes, source: str, mesh_ids: Collection[int] | None = None) -> Findings:
+def examined_bytes(data: bytes, source: str, mesh_ids: Collection[int] | None = None) -> Findings:
     """All that a check finds in the text of a script, which messages call `source`."""
     try:
         reading = reading_of(data, source)

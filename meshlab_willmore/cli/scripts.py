@@ -36,9 +36,9 @@ class Source(NamedTuple):
 
     def examined(self) -> Findings:
         """All that a check finds in it."""
-        from ..script import examined_text
+        from ..script import examined_bytes
 
-        return examined_text(self.data, self.name)
+        return examined_bytes(self.data, self.name)
 
 
 def is_script(word: str) -> bool:

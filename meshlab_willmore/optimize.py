@@ -22,6 +22,7 @@ from .mesh.validate import (
     check_mesh,
     check_place,
     check_seed,
+    check_wedge_uv,
     in_input_units,
     to_unit_scale,
 )
@@ -102,6 +103,7 @@ class _Locks(NamedTuple):
     featuredeg: float
     selected_faces: np.ndarray | None
     locked_edges: np.ndarray | None
+    wedge_uv: np.ndarray | None
 
 
 def optimize_flips(
@@ -121,6 +123,7 @@ def optimize_flips(
     featuredeg=180.0,
     selected_faces=None,
     locked_edges=None,
+    wedge_uv=None,
     maxflips=None,
 ):
     """Flip edges of a triangle mesh until no allowed flip lowers the energy any more.
@@ -204,6 +207,13 @@ def optimize_flips(
         Flip only edges between two selected faces.
     locked_edges : (e, 2) array_like of int, optional
         Vertex pairs of edges to keep.
+    wedge_uv : (m, 3, 2) array_like of float, optional
+        Texture coordinates of the corners of each face; with (m, 3, 4) those of two mappings, and
+        so on. Seams are kept, which are edges whose two faces have other coordinates at one of its
+        ends. No flip turns a texture triangle over or makes it flat: those of positive and of
+        negative area never get fewer, flat ones never more. Faces without a mapping, which have all
+        corners at one point, are flipped among themselves; faces with a coordinate that is not
+        finite stay. Those of the new faces are ``wedge_uv.reshape(-1, 2)[result.corners]``.
     maxflips : int, optional
         Stop after so many flips, or before a chain that would exceed them. With "annealing" its
         random flips count, all of them. Every search begins with greedy flips, and ends with these
@@ -249,12 +259,13 @@ def optimize_flips(
         check_degrees("featuredeg", featuredeg),
         None if selected_faces is None else check_mask(selected_faces, len(faces)),
         None if locked_edges is None else check_edges(locked_edges),
+        None if wedge_uv is None else check_wedge_uv(wedge_uv, len(faces)),
     )
     is_guarded = check_flag("checkintersections", checkintersections)
     scaled, exponent = to_unit_scale(vertices, faces)
     order = local_order(faces, len(vertices))
     mesh = build(scaled, faces[order])
-    _apply_locks(mesh, locks, order)
+    rules = _apply_locks(mesh, locks, order, rules)
     before = willmore_energy_of(mesh)
     kind = KINDS[energy]
     kernels = PLACED_KERNELS[place] if energy == "virtual willmore" else KERNELS[energy]
@@ -313,11 +324,22 @@ def _suited(rules, kind, mesh):
     return rules._replace(tolerance=kind.least * unit, rank_step=RANK_STEP * unit)
 
 
-def _apply_locks(mesh, locks, order):
-    """Lock edges of `mesh`, whose faces are those of the input in `order`, in place."""
+def _apply_locks(mesh, locks, order, rules):
+    """Lock edges of `mesh`, whose faces are those of the input in `order`, in place.
+
+    Returns
+    -------
+    Rules
+        With what has to be asked at each flip: not to fold the texture mapping.
+    """
     if locks.featuredeg < guards.FLAT_ANGLE:
         guards.lock_creases(mesh, math.radians(locks.featuredeg))
     if locks.selected_faces is not None:
         guards.lock_unselected(mesh, locks.selected_faces[order])
     if locks.locked_edges is not None:
         guards.lock_edges(mesh, locks.locked_edges)
+    if locks.wedge_uv is None:
+        return rules
+    uv = guards.mapping_of(locks.wedge_uv, order)
+    guards.lock_seams(mesh, uv)
+    return rules._replace(fold=rules.fold._replace(uv=uv))

@@ -93,13 +93,14 @@ def _flips() -> Iterator[tuple[str, dict[str, Any]]]:
             f"{search}, virtual points {place}{_GUARDED}",
             {**given, "checkintersections": True},
         )
-    _, faces = _patch()
+    vertices, faces = _patch()
     yield (
-        "features, selections, locked edges",
+        "features, selections, locked edges, textures",
         {
             "featuredeg": _FEATURE,
             "selected_faces": np.ones(len(faces), bool),
             "locked_edges": faces[:1, :2],
+            "wedge_uv": vertices[faces, :2],
         },
     )
 

@@ -76,6 +76,7 @@ def test_signature_is_the_promised_one():
         "featuredeg": 180.0,
         "selected_faces": None,
         "locked_edges": None,
+        "wedge_uv": None,
         "maxflips": None,
     }
 
@@ -640,6 +641,12 @@ def test_non_manifold_edges_stay():
         ({"selected_faces": np.ones(116)}, TypeError, "bool, not float64"),
         ({"locked_edges": [(0, 1.5)]}, TypeError, "integers, not float64"),
         ({"locked_edges": [0, 1]}, ValueError, r"shape \(count, 2\), not \(2,\)"),
+        ({"wedge_uv": np.zeros((116, 3))}, ValueError, r"\(116, 3, 2\), not \(116, 3\)"),
+        ({"wedge_uv": np.zeros((116, 3, 3))}, ValueError, r"\(116, 3, 2\), not \(116, 3, 3\)"),
+        ({"wedge_uv": np.zeros((348, 2))}, ValueError, r"\(116, 3, 2\), not \(348, 2\)"),
+        ({"wedge_uv": np.zeros((115, 3, 2))}, ValueError, r"not \(115, 3, 2\)"),
+        ({"wedge_uv": np.zeros((116, 3, 0))}, ValueError, r"not \(116, 3, 0\)"),
+        ({"wedge_uv": np.zeros((116, 3, 2), bool)}, TypeError, "real numbers, not bool"),
         ({"locked_edges": [(0, 60)]}, ValueError, r"locked_edges\[0\] = \(0, 60\)"),
     ],
 )

@@ -56,6 +56,7 @@ with compiling.forbidden():
     shared = np.asfortranarray(vertices, np.float32)
     shared.flags.writeable = False
     optimize_flips(shared, faces.astype(np.uint16), locked_edges=np.asfortranarray(faces[:5, :2]))
+    optimize_flips(shared, faces, wedge_uv=np.asfortranarray(shared[faces])[:, :, 1:])
     optimize_flips(np.zeros((0, 3)), np.zeros((0, 3), int))
     measure.self_intersections(vertices, np.asfortranarray(faces))
     figures.figures(ms, ms.current_mesh().face_matrix(), None)

@@ -1,7 +1,8 @@
 """Which flips are allowed beyond what the connectivity says.
 
-Locks, set once for the input; the fold guard; and, in `space`, the guard against
-self-intersections, with what it stands on: `predicates`, `triangles`, `rounded`, `faces`.
+Locks, set once for the input; the fold guard, for the surface and, in `mapping`, for textures; and,
+in `space`, the guard against self-intersections, with what it stands on: `predicates`, `triangles`,
+`rounded`, `faces`.
 """
 
 from .fold import (
@@ -12,7 +13,8 @@ from .fold import (
     folds,
     triangle_shape,
 )
-from .locks import lock_creases, lock_edges, lock_unselected
+from .locks import lock_creases, lock_edges, lock_seams, lock_unselected
+from .mapping import mapping_of
 
 __all__ = [
     "FLAT_ANGLE",
@@ -22,6 +24,8 @@ __all__ = [
     "folds",
     "lock_creases",
     "lock_edges",
+    "lock_seams",
     "lock_unselected",
+    "mapping_of",
     "triangle_shape",
 ]

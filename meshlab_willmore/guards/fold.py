@@ -1,11 +1,17 @@
-"""The fold guard, which looks at each flip by itself, and the angles and shapes that it goes by."""
+"""The fold guard, which looks at each flip by itself, and the angles and shapes that it goes by.
+
+It keeps the surface from folding, and texture mappings too (see `mapping`).
+"""
 
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from ..mesh.halfedge import diamond
 from ..mesh.jit import inner
 from ..mesh.points import angle_between, dot, norm, normal, subtract
+from .mapping import NO_MAPPING, turns_over
 
 FLAT_ANGLE = 180.0
 RIGHT_ANGLE = 0.5 * math.pi
@@ -18,23 +24,27 @@ class FoldLimits(NamedTuple):
     Attributes
     ----------
     active : bool
-        Whether anything is refused at all.
+        Whether any fold of the surface is refused.
     angle : float
         Dihedral angle in radians, 0 between coplanar faces, that a new edge may always have.
     slack : float
         Radians by which rounding may push an angle over its limit (right angles are common).
     shape : float
         Triangle shape in [0, 1] below which a flip must not bring the worse face.
+    uv : (3 m, 2 c) float64
+        Texture coordinates of the corners of the input, from `mapping_of`. No flip folds them,
+        whether or not the surface may fold.
     """
 
     active: bool
     angle: float
     slack: float = 1e-9
     shape: float = 0.05
+    uv: np.ndarray = NO_MAPPING
 
 
 def fold_limits(foldangle):
-    """Return the limits for a largest dihedral angle in degrees; 180 turns the guard off."""
+    """Return the limits for a largest dihedral angle in degrees; 180 allows the surface to fold."""
     return FoldLimits(foldangle < FLAT_ANGLE, math.radians(foldangle))
 
 
@@ -57,13 +67,16 @@ def dihedral_angle(mesh, h):
 
 @inner
 def folds(mesh, h, limits):
-    """Tell whether to flip `h` would fold the surface or make a sliver.
+    """Tell whether to flip `h` would fold the surface, make a sliver, or fold a texture mapping.
 
-    True if the dihedral angle of the new edge exceeds both the old one and the limit, or if the
-    worse shape of the two faces falls below both the old one and the limit.
+    True if the dihedral angle of the new edge exceeds both the old one and the limit, if the worse
+    shape of the two faces falls below both the old one and the limit, or if `turns_over` says so.
     """
-    if not limits.active:
-        return False
+    return (limits.active and _folds_surface(mesh, h, limits)) or turns_over(mesh, h, limits.uv)
+
+
+@inner
+def _folds_surface(mesh, h, limits):
     i, j, k, l = diamond(mesh, h)
     one, other = normal(k, i, l), normal(l, j, k)
     # Most new edges are blunt enough for every limit that is a right angle or more.

@@ -49,6 +49,38 @@ def lock_creases(mesh, limit):
             _lock(mesh, h)
 
 
+@jit
+def lock_seams(mesh, uv):
+    """Lock, in place, the seams of texture mappings, and all edges of faces that map nowhere.
+
+    A seam is an edge whose two faces have other coordinates at one of its ends. A face maps nowhere
+    if one of its coordinates is not finite.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Before any flip.
+    uv : (3 m, 2 c) float64
+        From `meshlab_willmore.guards.mapping.mapping_of`.
+    """
+    for h in range(len(uv)):
+        t = mesh.twin[h]
+        if h < t and (_differ(uv, h, following(t)) or _differ(uv, following(h), t)):
+            _lock(mesh, h)
+        if not np.isfinite(uv[h]).all():
+            for side in (h, following(h), previous(h)):
+                _lock(mesh, side)
+
+
+@inner
+def _differ(uv, a, b):
+    """Tell whether two corners have different texture coordinates."""
+    differ = False
+    for column in range(uv.shape[1]):
+        differ |= uv[a, column] != uv[b, column]
+    return differ
+
+
 @inner
 def _is_degenerate(mesh, h):
     """Tell whether one of the two faces at `h` has no normal to speak of."""

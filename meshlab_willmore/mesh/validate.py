@@ -115,6 +115,22 @@ def check_mask(mask, count):
     return mask
 
 
+def check_wedge_uv(uv, faces):
+    """Return texture coordinates (faces, 3, 2 c), finite or not, as float64, or raise.
+
+    `faces` is the number of faces.
+    """
+    uv = np.asarray(uv)
+    if not uv.size and not faces:
+        return np.empty((0, 3, 2))
+    if uv.dtype.kind not in "fiu":
+        raise TypeError(f"wedge_uv must be real numbers, not {uv.dtype}")
+    if uv.ndim != 3 or uv.shape[:2] != (faces, 3) or uv.shape[2] == 0 or uv.shape[2] % 2:
+        raise ValueError(f"wedge_uv must have the shape ({faces}, 3, 2), not {uv.shape}")
+    with np.errstate(over="ignore"):
+        return np.ascontiguousarray(uv, np.float64)
+
+
 def check_choice(name, value, choices):
     """Raise a ValueError that lists the choices unless `value` is one of them."""
     if not isinstance(value, str) or value not in choices:

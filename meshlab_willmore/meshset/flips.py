@@ -235,6 +235,7 @@ def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any]
             featuredeg=values["featuredeg"],
             selected_faces=snapshot.selected_faces if values["selection"] else None,
             locked_edges=sides.fixed_edges(snapshot),
+            wedge_uv=sides.texture_coordinates(snapshot),
             maxflips=None if maxflips == NO_LIMIT else maxflips,
         )
     if result.flips:
@@ -277,9 +278,10 @@ FLIPS = Filter(
     "Edges are flipped as long as that lowers an energy, by default a discrete Willmore energy "
     "(Bobenko), measured with virtual points in the middle of the edges, as in 'Mesh optimisation "
     "based on Willmore energy'. Vertices never move. Boundary and non-manifold edges, texture "
-    "seams stay, and so do polygons; meshing_poly_to_tri makes triangles of them. The flipped mesh "
-    "keeps its id and its place, but in PyMeshLab's own list it goes to the end: merging visible "
-    "meshes then gives another order of vertices and faces.",
+    "seams stay, and so do polygons; meshing_poly_to_tri makes triangles of them. Where faces or "
+    "vertices have texture coordinates, no flip turns a texture triangle over or makes it flat. "
+    "The flipped mesh keeps its id and its place, but in PyMeshLab's own list it goes to the end: "
+    "merging visible meshes then gives another order of vertices and faces.",
     _PARAMETERS,
     _RETURNS,
     _flip,

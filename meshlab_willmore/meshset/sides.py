@@ -1,4 +1,4 @@
-"""Sides of faces as MeshLab marks them: bits in the flags, and texture seams.
+"""What tells which sides of faces stay: bits in the flags, texture images and coordinates.
 
 A side is the half-edge from a corner to the next one; its edge may have a mark on either side.
 """
@@ -19,25 +19,40 @@ _ALL_SIDES = 0b111
 
 
 def fixed_edges(snapshot: Snapshot) -> np.ndarray:
-    """Edges that no flip may take: those of polygons, inner and outer ones, and texture seams.
+    """Edges that no flip may take: those of polygons, inner and outer ones, and between textures.
 
     Returns
     -------
     (e, 2) int32 ndarray
-        Vertex pairs. A seam is an edge whose two faces have other texture coordinates at one of
-        its ends, or another texture.
+        Vertex pairs.
     """
     flags = snapshot.ply.faces["flags"]
-    has_seams = "texcoord" in (snapshot.ply.faces.dtype.names or ())
-    if not (has_seams or (flags & _mask(_FAUX_BIT)).any()):
+    has_textures = "texnumber" in (snapshot.ply.faces.dtype.names or ())
+    if not (has_textures or (flags & _mask(_FAUX_BIT)).any()):
         return np.empty((0, 2), np.int32)
     tails = snapshot.faces
     heads = np.roll(tails, -1, axis=1)
     faux = _side_bits(flags, _FAUX_BIT)
     fixed = faux | faux.any(axis=1, keepdims=True)
-    if has_seams:
-        fixed |= _seams(snapshot)
+    if has_textures:
+        fixed |= _between_textures(snapshot)
     return np.column_stack((tails[fixed], heads[fixed])).astype(np.int32)
+
+
+def texture_coordinates(snapshot: Snapshot) -> np.ndarray | None:
+    """Texture coordinates of the corners of all faces, (m, 3, 2), or (m, 3, 4) with two mappings.
+
+    Faces may have coordinates of their own, for each corner, and vertices may: both are mappings.
+    None: there is neither.
+    """
+    mappings = []
+    if "texcoord" in (snapshot.ply.faces.dtype.names or ()):
+        mappings.append(snapshot.ply.faces["texcoord"].reshape(-1, 3, 2))
+    vertices = snapshot.ply.vertices
+    if "texture_u" in (vertices.dtype.names or ()):
+        at_vertices = np.column_stack((vertices["texture_u"], vertices["texture_v"]))
+        mappings.append(at_vertices[snapshot.faces])
+    return np.concatenate(mappings, axis=2) if mappings else None
 
 
 def _mask(*first_bits: int) -> np.int32:
@@ -50,21 +65,14 @@ def _side_bits(flags: np.ndarray, first_bit: int) -> np.ndarray:
     return (flags[:, None] >> (first_bit + np.arange(3)) & 1).astype(bool)
 
 
-def _seams(snapshot: Snapshot) -> np.ndarray:
-    """(m, 3) bool: the side lies on a texture seam. Sides without one partner: False."""
+def _between_textures(snapshot: Snapshot) -> np.ndarray:
+    """(m, 3) bool: the other face has another texture. Sides without one partner: False."""
     tails = snapshot.faces.astype(np.int64)
     heads = np.roll(tails, -1, axis=1)
     n = len(snapshot.ply.vertices)
     partner = _partners(tails.ravel() * n + heads.ravel(), heads.ravel() * n + tails.ravel())
-
-    coords = snapshot.ply.faces["texcoord"].reshape(-1, 3, 2)
-    at_tail = coords.reshape(-1, 2)
-    at_head = np.roll(coords, -1, axis=1).reshape(-1, 2)
-    differs = (at_tail != at_head[partner]).any(1) | (at_head != at_tail[partner]).any(1)
-    if "texnumber" in (snapshot.ply.faces.dtype.names or ()):
-        number = np.repeat(snapshot.ply.faces["texnumber"], 3)
-        differs |= number != number[partner]
-    return (differs & (partner >= 0)).reshape(-1, 3)
+    number = np.repeat(snapshot.ply.faces["texnumber"], 3)
+    return ((number != number[partner]) & (partner >= 0)).reshape(-1, 3)
 
 
 def _partners(keys: np.ndarray, wanted: np.ndarray) -> np.ndarray:

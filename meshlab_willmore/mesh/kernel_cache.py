@@ -23,7 +23,13 @@ from numba.misc.appdirs import AppDirs
 
 _PACKAGE = Path(__file__).resolve().parents[1]
 # What kernels are made of, seen from the package's folder.
-SOURCES = ("energy/*.py", "guards/*.py", "measure.py", "mesh/*.py", "search/*.py")
+SOURCES = (
+    "energy/*.py",
+    "guards/*.py",
+    "measure.py",
+    *(f"mesh/{name}.py" for name in ("build", "halfedge", "jit", "normals", "points")),
+    "search/*.py",
+)
 # Settings of Numba that change the code, but for the processor's, by which Numba itself keys.
 _FLAGS = (
     "BOUNDSCHECK",

@@ -1,5 +1,6 @@
 """Kernels on disk: what keys them, and what becomes of damaged files."""
 
+import ast
 import errno
 import shutil
 from pathlib import Path
@@ -111,12 +112,36 @@ def test_the_key_is_that_of_the_sources_and_flags_not_of_the_folder(monkeypatch,
     assert key_of(monkeypatch, copy) not in (before, edited)
 
 
+def sources():
+    return {path for pattern in kernel_cache.SOURCES for path in PACKAGE.glob(pattern)}
+
+
 def test_all_kernels_are_among_the_sources():
-    sources = {path for pattern in kernel_cache.SOURCES for path in PACKAGE.glob(pattern)}
     ours = {
         Path(getattr(kernel, "py_func", kernel).__code__.co_filename)
         for kernel in KERNELS
         if getattr(kernel, "py_func", kernel).__module__.startswith("meshlab_willmore")
     }
     assert len(ours) > 20
-    assert ours <= sources
+    assert ours <= sources()
+
+
+def imported(path):
+    """Each name that a file imports from the package, with the file that it comes from."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.ImportFrom) and node.level:
+            folder = path.parents[node.level - 1].joinpath(*(node.module or "").split("."))
+            for name in node.names:
+                whole = folder / name.name
+                yield name.name, (whole if whole.with_suffix(".py").exists() else folder)
+
+
+def test_the_sources_take_no_constants_from_other_files():
+    others = {
+        (name, module.with_suffix(".py"))
+        for path in sources()
+        for name, module in imported(path)
+        if not {module.with_suffix(".py"), module / "__init__.py"} & sources()
+    }
+    # How many items a thread gets at a time; no kernel sees it.
+    assert {name for name, _ in others if name.isupper()} == {"PIECE"}

@@ -1,5 +1,6 @@
 """No search makes a surface cut itself: by the exact tests, and as MeshLab counts."""
 
+import itertools
 from pathlib import Path
 
 import numpy as np
@@ -46,11 +47,26 @@ def new_faces(before, after):
     return np.array([face not in known for face in map(tuple, np.sort(after, axis=1).tolist())])
 
 
+def combinations():
+    """All meshes, energies, searches and options: by day such that each two of them meet."""
+    ways = [{}, {"foldangle": 180.0, "monotone": False}]
+    numbered = (enumerate(values) for values in (MESHES, KERNELS, SEARCHES, ways))
+    for (m, name), (e, energy), (s, search), (w, options) in itertools.product(*numbered):
+        is_daily = s == (m + e) % len(SEARCHES) and w == (m // 2 + e) % len(ways)
+        marks = () if is_daily else pytest.mark.nightly
+        yield pytest.param(search, energy, options, name, marks=marks)
+
+
+def test_by_day_each_two_options_meet():
+    daily = [row.values for row in combinations() if not row.marks]
+    assert len(daily) < 60
+    columns = [list(map(str, column)) for column in zip(*daily, strict=True)]
+    for one, other in itertools.combinations(columns, 2):
+        assert len({*zip(one, other, strict=True)}) == len({*one}) * len({*other})
+
+
 @pytest.mark.heavy
-@pytest.mark.parametrize("name", MESHES)
-@pytest.mark.parametrize("options", [{}, {"foldangle": 180.0, "monotone": False}])
-@pytest.mark.parametrize("energy", KERNELS)
-@pytest.mark.parametrize("search", SEARCHES)
+@pytest.mark.parametrize(("search", "energy", "options", "name"), list(combinations()))
 def test_no_new_face_cuts_and_meshlab_counts_no_more(search, energy, options, name):
     vertices, faces = MESHES[name]()
     options = {"search": search, "energy": energy, "depth": 3, "breadth": 1, **options}

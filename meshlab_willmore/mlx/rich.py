@@ -31,15 +31,39 @@ def parse(type: str, attributes: Mapping[str, str]) -> Value:
     Raises
     ------
     ValueError
-        If the type is unknown, or MeshLab would drop the parameter or misread its value.
+        If the type is unknown, or MeshLab would drop the parameter or misread its value; with all
+        that is wrong.
     """
     kind = _kind(type)
-    values = _parse_fields(kind.fields, kind.read, attributes)
-    if not (values and isinstance(values[0], Percentage)):
-        _check_needs(kind, attributes)
+    problems = [missing(kind.fields, attributes)]
+    values = [_read_into(problems, kind.read, name, attributes) for name in kind.fields]
+    # A percentage needs no range.
+    is_share = kind.needs == RANGE and attributes.get("value", "").strip().endswith("%")
+    if not is_share:
+        problems.append(missing(kind.needs, attributes))
+        read = numerals.parse_float if kind.needs == RANGE else numerals.parse_cardinality
+        for name in kind.needs:
+            _read_into(problems, read, name, attributes)
+    told = [problem for problem in problems if problem]
+    if told:
+        raise ValueError("; ".join(told))
     if type == "RichEnum":
         _check_index(values[0], attributes)
     return _joined(kind, values)
+
+
+def _read_into(
+    problems: list[str | None],
+    read: Callable[[str], Any],
+    name: str,
+    attributes: Mapping[str, str],
+) -> Any:
+    """The value of an attribute that is there; why it is none goes into `problems`."""
+    try:
+        return _parse_attribute(name, read, attributes) if name in attributes else None
+    except ValueError as error:
+        problems.append(str(error))
+        return None
 
 
 def parse_text(type: str, text: str) -> Value:
@@ -114,14 +138,6 @@ def _kind(type: str) -> Kind:
     raise ValueError(f"unknown type {quoted(type)}; {cure}")
 
 
-def _parse_fields(
-    fields: tuple[str, ...], read: Callable[[str], Any], attributes: Mapping[str, str]
-) -> list[Any]:
-    if problem := missing(fields, attributes):
-        raise ValueError(problem)
-    return [_parse_attribute(field, read, attributes) for field in fields]
-
-
 def _parse_attribute(name: str, read: Callable[[str], Any], attributes: Mapping[str, str]) -> Any:
     return _parse_piece(_named(name, attributes), read, attributes[name])
 
@@ -135,14 +151,6 @@ def _parse_piece(shown: str, read: Callable[[str], Any], text: str) -> Any:
 
 def _named(name: str, attributes: Mapping[str, str]) -> str:
     return f"{name}={quoted(attributes[name])}"
-
-
-def _check_needs(kind: Kind, attributes: Mapping[str, str]) -> None:
-    if problem := missing(kind.needs, attributes):
-        raise ValueError(problem)
-    for need in kind.needs:
-        read = numerals.parse_float if kind.needs == RANGE else numerals.parse_cardinality
-        _parse_attribute(need, read, attributes)
 
 
 def _check_index(index: int, attributes: Mapping[str, str]) -> None:

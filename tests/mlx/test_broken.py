@@ -496,6 +496,19 @@ def test_all_faults_come_at_once():
     )
 
 
+def test_all_that_is_wrong_with_a_value_is_told():
+    body = (
+        f'<filter name="F">{element(name="c", kind="RichColor", r="x", g="300", a="0")}'
+        f"{element(name='s', kind='RichAbsPerc', value='y', min='z')}</filter>"
+    )
+    with pytest.raises(ScriptError) as caught:
+        read_bytes(script(body), "s")
+    assert [fault.text for fault in caught.value.faults] == [
+        "attribute 'b' is missing; r='x' is not a whole number; g='300' is not between 0 and 255",
+        "value='y' is not a number; attribute 'max' is missing; min='z' is not a number",
+    ]
+
+
 def test_a_text_of_several_lines_is_one_fault():
     with pytest.raises(ScriptError) as caught:
         read_bytes(script("Invert\nFaces &amp;\nmore"), "s")

@@ -38,7 +38,7 @@ _WORDS = {"and": "&&", "or": "||"}
 _LAST_WITH_WORDS = "2015.03"
 _WORD = re.compile(r"\b(and|or)\b")
 # Attributes that only MeshLab's scripts of up to this version have.
-_OLD_ATTRIBUTE, _LAST_WITH_ATTRIBUTE = "isxmlparam", "2020.05"
+_OLD_ATTRIBUTE, _LAST_WITH_ATTRIBUTE = "isxmlparam", "2020.06"
 
 
 class Target(NamedTuple):

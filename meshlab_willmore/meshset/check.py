@@ -15,8 +15,8 @@ from ..mlx.words import quoted, shortened
 from . import catalogue, document, old_names
 from .catalogue import Known
 from .filters import BY_NAME
+from .migration import Given, Migration, Remark
 from .probe import KnownParam
-from .todays import Given, Remark, Todays
 from .values import mismatch, value_of
 
 # A longer list of parameters would not help.
@@ -130,7 +130,7 @@ def is_todays(step: Step) -> bool:
         return False
     names = {own.name for own in known.params}
     has_names = all(param.type and param.name in names for param in step.params)
-    return has_names and not Todays(step, known, {}, "").remarks
+    return has_names and not Migration(step, known, {}, "").remarks
 
 
 class _EnoughError(Exception):
@@ -168,14 +168,14 @@ class _Checker:
             self._add(number, step, _NO_MESH)
             self._may_be_more = True
         self._warn_of_name(number, step, known)
-        todays = Todays(step, known, target.given if target else {}, old.by if old else "")
-        self._make_older(todays.age)
-        for remark in todays.problems:
+        migration = Migration(step, known, target.given if target else {}, old.by if old else "")
+        self._make_older(migration.age)
+        for remark in migration.problems:
             self._add(number, step, remark.text, remark.shown)
-        for remark in todays.remarks:
+        for remark in migration.remarks:
             self._warn(number, step, remark)
         call = Call(number, known, {}, {})
-        for item, own in self._params(number, step, known, todays, gap):
+        for item, own in self._params(number, step, known, migration, gap):
             self._take(call, step, item, own)
         self._may_be_more = self._may_be_more or known.makes_layers
         self._left -= known.name == _DELETE
@@ -197,11 +197,11 @@ class _Checker:
             call.details[own.keyword] = item.param.details
 
     def _params(
-        self, number: int, step: Step, known: Known, todays: Todays, gap: Gap
+        self, number: int, step: Step, known: Known, migration: Migration, gap: Gap
     ) -> Iterator[tuple[Given, KnownParam]]:
         """The parameters that the filter has, each once."""
         seen: dict[str, str] = {}
-        for item in todays.given:
+        for item in migration.given:
             own = known.param(item.param.name)
             if own is None:
                 self._add(number, step, _no_parameter(known, item.shown), item.shown)
@@ -217,7 +217,7 @@ class _Checker:
                 yield item, own
         self._check_broken(number, step, known, gap)
         unread = {own.keyword for param in gap.broken if (own := known.param(param.name))}
-        lost = {remark.shown for remark in todays.problems}
+        lost = {remark.shown for remark in migration.problems}
         for own in known.params:
             if own.required and own.keyword not in {*seen, *unread} and not (gap.is_cut or lost):
                 self._add(number, step, "is missing; the filter can't do without it", own.name)

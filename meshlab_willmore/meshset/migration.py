@@ -1,4 +1,4 @@
-"""The parameters of a step as today's filter has them, whatever they were called before."""
+"""The parameters of a step brought to the names and values of today's filter."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ class Remark(NamedTuple):
     changes_result: bool = False
 
 
-class Todays:
-    """The parameters of one step.
+class Migration:
+    """The parameters of one step, as today's filter has them.
 
     Attributes
     ----------

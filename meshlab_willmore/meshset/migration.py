@@ -83,13 +83,14 @@ class Migration:
 
     def _converted(self, param: Param, old: OldParam) -> Iterator[Given]:
         value = old_names.value_then(param, old)
+        more = f": {old.note}" if old.note else ""
         if old.param is None:
             is_idle = old.idle in ("any", value)
-            more = f": {old.note}" if old.note else ""
             text = f"is ignored: the filter has had none such since MeshLab {old.until}{more}"
             self.remarks.append(Remark(param.name, text, changes_result=not is_idle))
             return
-        self.remarks.append(Remark(param.name, f"is {old.param!r} today"))
+        text = f"is {old.param!r} today{more}"
+        self.remarks.append(Remark(param.name, text, changes_result=bool(more)))
         new = old_names.convert(value, old)
         if "part" in old.change:
             self._parts.setdefault(old.param, []).append((param.name, old, new))

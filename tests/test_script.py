@@ -1,5 +1,6 @@
 """Scripts read, checked and run in Python."""
 
+import os
 import subprocess
 import sys
 
@@ -8,6 +9,7 @@ import pymeshlab
 import pytest
 
 from meshlab_willmore import script
+from meshlab_willmore.meshset import native
 from meshlab_willmore.script import Fault, Param, Percentage, ScriptError, Step
 from tests import meshes
 from tests.meshset.conftest import FLIP, SAMPLES, set_of
@@ -278,3 +280,16 @@ def test_ids_of_meshes_are_checked_before_the_first_step(bumpy):
     with pytest.raises(ScriptError):
         script.calls([FLIPS, step], [0])
     assert [call.number for call in script.calls([FLIPS, step], [5])] == [1, 2]
+
+
+def test_a_step_leaves_the_working_folder_as_it_was(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+    def move(*_arguments, **_named):
+        os.chdir(os.sep)
+        raise pymeshlab.PyMeshLabException("no file")
+
+    monkeypatch.setattr(native, "apply", move)
+    with pytest.raises(pymeshlab.PyMeshLabException, match="no file"):
+        script.run([Step("Box/Cube")])
+    assert os.getcwd() == str(tmp_path)

@@ -24,6 +24,8 @@ PARTS = {
     "wn": ("save_wedge_normal", "wedge normals"),
     "wt": ("save_wedge_texcoord", "wedge texture coordinates"),
 }
+# Those that are no data: PyMeshLab's keyword and its value.
+MANNERS = {"mp": ("save_polygonal", True), "sa": ("binary", False)}
 TEXTURED = frozenset({"vt", "wt"})
 
 mask_option = click.option(
@@ -31,17 +33,17 @@ mask_option = click.option(
     "-m",
     "parts",
     multiple=True,
-    type=click.Choice(list(PARTS)),
+    type=click.Choice([*PARTS, *MANNERS]),
     metavar="PART...",
     help="What is saved beside positions and faces, nothing else: v, f or w (vertex, face, wedge) "
     "with c, f, q, n, t or r (colour, flags, quality, normal, texture, radius), such as: vc fq wt. "
-    "Without it: what PyMeshLab saves of itself.",
+    "mp keeps polygons, sa writes text. Without it: what PyMeshLab saves of itself.",
 )
 
 
 def is_part(word: str) -> bool:
     """Whether a word is one of the short names."""
-    return word in PARTS
+    return word in PARTS or word in MANNERS
 
 
 def by_output(order: Iterable[str], parts: Sequence[str]) -> list[tuple[str, ...]]:
@@ -68,14 +70,16 @@ def by_output(order: Iterable[str], parts: Sequence[str]) -> list[tuple[str, ...
 def keywords(parts: Iterable[str], ending: str) -> dict[str, bool]:
     """What ``save_current_mesh`` is told for a format; nothing if nothing was asked for."""
     wanted = set(parts)
-    return {
-        keyword: part in wanted
-        for part, (keyword, _) in PARTS.items()
-        if wanted and formats.holds(ending, keyword)
-    }
+    data = {keyword: part in wanted for part, (keyword, _) in PARTS.items()}
+    manners = {key: value for part, (key, value) in MANNERS.items() if part in wanted}
+    given = {**data, **manners} if wanted else {}
+    return {key: value for key, value in given.items() if formats.holds(ending, key)}
 
 
 def not_held(parts: Iterable[str], ending: str) -> str:
     """What was asked for and files with this ending have no place for, in words; or nothing."""
-    missing = [f"{PARTS[p][1]} ({p})" for p in parts if not formats.holds(ending, PARTS[p][0])]
+    asked = {part: PARTS[part] for part in parts if part in PARTS}
+    missing = [
+        f"{name} ({p})" for p, (key, name) in asked.items() if not formats.holds(ending, key)
+    ]
     return f".{ending} files hold no {' and no '.join(missing)}" if missing else ""

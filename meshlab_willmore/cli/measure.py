@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from . import progress
-from .columns import in_columns
+from .columns import fitted, in_columns, width
 from .errors import WrongUse, debug_option, one_line, reason, stops_all, told_of
 from .inputs import asked_for, how_many_failed, loaded
 
@@ -120,6 +120,6 @@ def _table(measured: Iterable[dict[str, Any]]) -> str:
     for row in measured:
         sizes = (row["file"], str(row["vertices"]), str(row["faces"]))
         rows.append((*sizes, *(significant(row[name]) for name in MEASURES)))
-    lines = in_columns(rows).splitlines()
-    rule = "-" * max(map(len, lines))
+    lines = in_columns(fitted(rows)).splitlines()
+    rule = "-" * max(map(width, lines))
     return "\n".join([lines[0], rule, *lines[1:], rule, LEGEND])

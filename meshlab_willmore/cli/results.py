@@ -22,11 +22,14 @@ class Wishes(NamedTuple):
     ----------
     parts : tuple of tuple of str
         For each output, the short names of `masks`.
+    layers : tuple of str
+        For each output, the layer as `output_words` has it; empty for none.
     force : bool
         Replace files that are there.
     """
 
     parts: tuple[tuple[str, ...], ...]
+    layers: tuple[str, ...]
     force: bool
 
 
@@ -58,21 +61,34 @@ def save(ms: pymeshlab.MeshSet, job: Job, wishes: Wishes, log: Log) -> str:
         return "not saved (no -o)"
     if ms.mesh_number() == 0:
         raise OSError(f"cannot write {job.outputs[0]}: the script leaves no mesh")
-    layers = [mesh.id() for mesh in ms]
-    if len(job.outputs) > len(layers):
-        left = counted(len(layers), "layer")
-        raise OSError(f"{len(job.outputs)} outputs, but the script leaves {left}")
+    chosen = _chosen(ms, job, wishes)
     origin = job.inputs[0].parent if job.inputs else None
     texts = []
-    for place, (path, parts) in enumerate(zip(job.outputs, wishes.parts, strict=True)):
-        if len(job.outputs) > 1:
-            ms.set_current_mesh(layers[place])
+    for path, parts, layer in zip(job.outputs, wishes.parts, chosen, strict=True):
+        ms.set_current_mesh(layer)
         with progress.shown(job.name) as status:
             status.begin(f"saving {path}")
             files = saving.save(ms, path, saving.Wish(parts, wishes.force, origin))
         log.say(f"output {' '.join(map(str, files))} ({_size(ms)})")
         texts.append(f"{path} ({_size(ms)})")
     return ", ".join(texts)
+
+
+def _chosen(ms: pymeshlab.MeshSet, job: Job, wishes: Wishes) -> list[int]:
+    """The id of the layer for each output."""
+    current, layers = ms.current_mesh().id(), [mesh.id() for mesh in ms]
+    left = counted(len(layers), "layer")
+    if any(wishes.layers):
+        numbers = [int(layer) for layer in wishes.layers if layer.isdecimal()]
+        if numbers and max(numbers) >= len(layers):
+            raise OSError(f"there is no layer {max(numbers)}: the script leaves {left}, from 0")
+        ends = {"c": current, "x": layers[-1]}
+        return [ends[name] if name in ends else layers[int(name)] for name in wishes.layers]
+    if len(job.outputs) == 1:
+        return [current]
+    if len(job.outputs) > len(layers):
+        raise OSError(f"{len(job.outputs)} outputs, but the script leaves {left}")
+    return layers[: len(job.outputs)]
 
 
 def _size(ms: pymeshlab.MeshSet) -> str:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import click
 
-from . import inputs, outputs, playing, results, told
+from . import inputs, output_words, outputs, playing, results, told
 from .columns import counted
 from .errors import debug_option, one_line, stops_all, told_of, wrong_use
 from .masks import by_output, is_part, mask_option
@@ -34,9 +34,10 @@ A script:
 Examples:
   meshlab-willmore run clean.mlx -i scan.ply -o clean.ply
   meshlab-willmore run clean.mlx -i 'scans/*.ply' -o 'out/{name}_clean.{ext}'
-  meshlab-willmore run clean.mlx -i scan.ply -o clean.obj -m vc vn wt -l log.txt
+  meshlab-willmore run clean.mlx -i scan.ply -o clean.obj -m vc vn wt --log log.txt
   meshlab-willmore run clean.mlx -i scan.ply -o clean.ply --set 2.stepsmoothnum=5
   meshlab-willmore run align.mlx -i a.ply b.ply --layers -o both.ply
+  meshlab-willmore run align.mlx -i a.ply b.ply --layers -o second.ply -l 1 -o last.obj -l x
   meshlab-willmore run makes-a-sphere.mlx -o sphere.ply
   meshlab-willmore run clean.mlx -i scan.ply -o clean.ply --dry-run
 """
@@ -52,6 +53,7 @@ class Orders(NamedTuple):
     source: str
     steps: tuple[Step, ...]
     parts: tuple[tuple[str, ...], ...]
+    layers: tuple[str, ...]
     force: bool
     stop: bool
     dry_run: bool
@@ -69,7 +71,7 @@ class RunCommand(SeveralValues):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Take meshlabserver's spelling too, and note which -m stands behind which -o."""
-        words = of_today(args)
+        words = output_words.plain(of_today(args), is_script, is_part)
         parser = self.make_parser(ctx)
         *_, order = parser.parse_args(spelled_out(words, self.several))
         ctx.meta[_ORDER] = [option.name for option in order]
@@ -102,7 +104,16 @@ def _placeholders() -> str:
 )
 @mask_option
 @click.option(
-    "-l", "--log", metavar="FILE", help="Add what each step did to this file; - for the terminal."
+    "--layer",
+    multiple=True,
+    metavar="LAYER",
+    help=f"The layer that the -o before it saves: {output_words.MEANING}. -l just behind an -o is "
+    "the same.",
+)
+@click.option(
+    "--log",
+    metavar="FILE",
+    help="Add what each step did to this file; - for the terminal. -l before every -o is the same.",
 )
 @click.option(
     "--set",
@@ -127,8 +138,9 @@ def command(script: str | None, also: str | None, **given: Any) -> None:
     end. What loading or saving leaves out is told in a note.
 
     With --layers the first input is the current layer, as in meshlabserver. One -o saves the mesh
-    that is current in the end; several save the first layers, in their order. Each -m is for
-    the -o before it; one before all of them is for all.
+    that is current in the end; several save the first layers, in their order. An -l just behind
+    an -o names its layer. Several names behind one -o are outputs. Each -m is for the -o before
+    it; one before all of them is for all.
 
     MeshLab's window saves scripts ("Show current filter script"), and so does PyMeshLab; a short
     one stands below. 'meshlab-willmore filters' has the names, 'lint' finds what is wrong.
@@ -136,10 +148,12 @@ def command(script: str | None, also: str | None, **given: Any) -> None:
     from . import jobs, runlog
 
     source = _script_of(script, also)
+    order = click.get_current_context().meta[_ORDER]
     orders = Orders(
         source.name,
         _steps(source, given["settings"]),
-        tuple(by_output(click.get_current_context().meta[_ORDER], given["parts"])),
+        tuple(by_output(order, given["parts"])),
+        tuple(output_words.by_output(order, given["layer"], given["patterns"])),
         given["force"],
         given["stop"],
         given["dry_run"],
@@ -218,7 +232,7 @@ def _run_one(orders: Orders, job: Job, log: Log) -> str:
         there = " and ".join(map(str, job.outputs)) or "no file"
         return f"{job.name}: fine; {counted(len(calls), 'step')} to run, then {there} to write"
     played = playing.play(ms, calls, orders.source, Path(job.name).name, log)
-    saved = results.save(ms, job, results.Wishes(orders.parts, orders.force), log)
+    saved = results.save(ms, job, results.Wishes(orders.parts, orders.layers, orders.force), log)
     seconds = time.perf_counter() - start
     line = f"{job.name} -> {saved}: {counted(len(calls), 'step')}, {seconds:.1f} s"
     return "\n".join([line, *told.steps(played)])

@@ -1,4 +1,4 @@
-"""`-l`: what a run did, step by step, readable up to the moment where it ended."""
+"""`--log`: what a run did, step by step, readable up to the moment where it ended."""
 
 from __future__ import annotations
 
@@ -103,9 +103,11 @@ def check(path: str | None, others: Iterable[Path]) -> None:
     log = Path(path)
     for other in others:
         if _is_same(log, other):
-            raise wrong_use(f"-l {path}: the log would be written into {other}; give it a new name")
+            raise wrong_use(
+                f"--log {path}: the log would be written into {other}; give it a new name"
+            )
     if os.path.isdir(log):
-        raise wrong_use(f"-l {path} is a folder; name a file in it, such as '{log / 'log.txt'}'")
+        raise wrong_use(f"--log {path} is a folder; name a file in it, such as '{log / 'log.txt'}'")
     if is_stream(log):
         return
     refuse_special(log)
@@ -132,7 +134,7 @@ def _check_log(log: Path) -> None:
     except OSError as error:
         raise OSError(f"cannot write the log {log}: {error.strerror}") from error
     if beginning and not _BEGINNING.match(beginning):
-        raise wrong_use(f"-l {log}: this file is no log of a run; give the log a new name")
+        raise wrong_use(f"--log {log}: this file is no log of a run; give the log a new name")
 
 
 @contextmanager

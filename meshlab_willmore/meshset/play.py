@@ -78,7 +78,8 @@ def play(
         for call in calls:
             if before is not None:
                 before(call)
-            played = _play_one(ms, call, source)
+            with native.kept_working_folder():
+                played = _play_one(ms, call, source)
             done.append(played)
             if after is not None:
                 after(played)

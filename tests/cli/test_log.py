@@ -1,4 +1,4 @@
-"""`-l`: where a log may be written, and what is said when it can't be."""
+"""`--log`: where a log may be written, and what is said when it can't be."""
 
 import os
 import re
@@ -37,12 +37,15 @@ def contents():
 @pytest.mark.parametrize(
     ("log", "line"),
     [
-        ("cube.ply", "-l cube.ply: the log would be written into cube.ply; give it a new name"),
-        ("./script.mlx", "-l ./script.mlx: the log would be written into script.mlx; give it a"),
-        ("folder/../out.ply", "-l folder/../out.ply: the log would be written into out.ply; give"),
-        ("mine.txt", "-l mine.txt: this file is no log of a run; give the log a new name"),
-        ("other.ply", "-l other.ply: this file is no log of a run; give the log a new name"),
-        ("folder", "-l folder is a folder; name a file in it, such as 'folder/log.txt'"),
+        ("cube.ply", "--log cube.ply: the log would be written into cube.ply; give it a new name"),
+        ("./script.mlx", "--log ./script.mlx: the log would be written into script.mlx; give it a"),
+        (
+            "folder/../out.ply",
+            "--log folder/../out.ply: the log would be written into out.ply; give",
+        ),
+        ("mine.txt", "--log mine.txt: this file is no log of a run; give the log a new name"),
+        ("other.ply", "--log other.ply: this file is no log of a run; give the log a new name"),
+        ("folder", "--log folder is a folder; name a file in it, such as 'folder/log.txt'"),
         ("no/log.txt", "cannot write the log no/log.txt: there is no folder no"),
         ("mine.txt/log.txt", "cannot write the log mine.txt/log.txt: there is no folder mine.txt"),
     ],
@@ -52,7 +55,7 @@ def test_a_log_is_written_over_nothing(run, no_step, log, line, dry):
     Path("mine.txt").write_text("2020-02-20: dear diary\n")
     Path("folder").mkdir()
     before = contents()
-    result = call(*run, "-l", log, *dry)
+    result = call(*run, "--log", log, *dry)
     assert (result.exit_code, result.stdout) == (2, "")
     assert result.stderr.startswith(f"Error: {line}")
     assert result.stderr.count("\n") == 1
@@ -64,7 +67,7 @@ def test_a_log_is_written_over_nothing(run, no_step, log, line, dry):
 def test_a_link_to_an_input_is_that_input(run, no_step, link):
     link("cube.ply", "log.txt")
     before = contents()
-    result = call(*run, "-l", "log.txt")
+    result = call(*run, "--log", "log.txt")
     assert result.exit_code == 2
     assert "the log would be written into cube.ply" in result.stderr
     assert contents() == before
@@ -72,8 +75,8 @@ def test_a_link_to_an_input_is_that_input(run, no_step, link):
 
 def test_a_log_goes_on_and_may_begin_empty(run):
     Path("log.txt").touch()
-    assert call(*run, "-l", "log.txt").exit_code == 0
-    assert call(*run, "-l", "log.txt", "--force").exit_code == 0
+    assert call(*run, "--log", "log.txt").exit_code == 0
+    assert call(*run, "--log", "log.txt", "--force").exit_code == 0
     lines = Path("log.txt").read_text().splitlines()
     assert sum(line.endswith(" run script.mlx") for line in lines) == 2
     assert sum(line.startswith("done, ") for line in lines) == 2
@@ -87,7 +90,7 @@ def test_a_folder_that_takes_no_file_is_found_before(run, no_step, monkeypatch, 
     Path("closed").mkdir()
     monkeypatch.setattr("meshlab_willmore.cli.outputs.writable_folder", lambda _: None)
     monkeypatch.setattr("meshlab_willmore.files.TemporaryFile", refuse)
-    result = call(*run, "-l", "closed/log.txt", *dry)
+    result = call(*run, "--log", "closed/log.txt", *dry)
     assert result.exit_code == 1
     assert result.stderr == "Error: cannot write into closed: Permission denied\n"
 
@@ -95,7 +98,7 @@ def test_a_folder_that_takes_no_file_is_found_before(run, no_step, monkeypatch, 
 def test_a_full_disk_is_told_of_the_log(run):
     if not Path("/dev/full").exists():
         pytest.skip("needs /dev/full")
-    result = call(*run, "-l", "/dev/full")
+    result = call(*run, "--log", "/dev/full")
     assert result.exit_code == 1
     assert result.stderr == "Error: cannot write the log /dev/full: No space left on device\n"
     assert not Path("out.ply").exists()
@@ -104,11 +107,11 @@ def test_a_full_disk_is_told_of_the_log(run):
 @POSIX
 def test_a_log_goes_into_a_pipe_if_somebody_reads(run):
     os.mkfifo("pipe")
-    result = call(*run, "-l", "pipe")
+    result = call(*run, "--log", "pipe")
     assert result.exit_code == 1
     assert result.stderr == "Error: cannot write the log pipe: nobody reads from this pipe\n"
     end = os.open("pipe", os.O_RDONLY | os.O_NONBLOCK)
-    assert call(*run, "-l", "pipe").exit_code == 0
+    assert call(*run, "--log", "pipe").exit_code == 0
     assert os.read(end, 1 << 16).splitlines()[-1].startswith(b"done, ")
     os.close(end)
 
@@ -119,7 +122,7 @@ def test_a_socket_takes_no_log(run, no_step, name):
     with socket.socket(socket.AF_UNIX) as made:
         made.bind("socket")
     Path("link.txt").symlink_to("socket")
-    result = call(*run, "-l", name, "--force")
+    result = call(*run, "--log", name, "--force")
     assert result.exit_code == 1
     assert re.match(rf"Error: cannot write {name}: it (is|leads to) a socket", result.stderr)
     assert stat.S_ISSOCK(Path("socket").stat().st_mode)
@@ -129,9 +132,9 @@ def test_a_socket_takes_no_log(run, no_step, name):
 def test_a_link_that_leads_nowhere_leads_to_the_log(run):
     Path("folder").mkdir()
     Path("link.txt").symlink_to("folder/log.txt")
-    assert call(*run, "-l", "link.txt").exit_code == 0
+    assert call(*run, "--log", "link.txt").exit_code == 0
     assert Path("folder/log.txt").read_text().endswith(" s\n")
     Path("other.txt").symlink_to("no/log.txt")
-    result = call(*run, "-l", "other.txt", "--force")
+    result = call(*run, "--log", "other.txt", "--force")
     assert result.exit_code == 2
     assert result.stderr.startswith("Error: cannot write the log other.txt: there is no folder ")

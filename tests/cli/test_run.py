@@ -318,7 +318,7 @@ def test_an_unknown_input_format_is_named(script):
 
 def test_a_dry_run_checks_all_and_writes_nothing(monkeypatch, script, cube):
     no_step(monkeypatch)
-    result = call("run", script, "-i", cube, "-o", "out.ply", "-l", "log.txt", "--dry-run")
+    result = call("run", script, "-i", cube, "-o", "out.ply", "--log", "log.txt", "--dry-run")
     assert result.exit_code == 0
     assert result.stdout == "cube.ply: fine; 2 steps to run, then out.ply to write\n"
     assert listing() == ["cube.ply", "script.mlx"]
@@ -330,7 +330,7 @@ def test_the_log_has_parameters_times_and_what_came_back(cube):
     script = script_file((FLIP[0], {"energy": ("RichEnum", '1" enum_cardinality="2')}), TAUBIN)
     before = "2020-02-20 20:20:20 run older.mlx"
     Path("log.txt").write_text(before + "\n")
-    assert call("run", script, "-i", cube, "-o", "out.ply", "-l", "log.txt").exit_code == 0
+    assert call("run", script, "-i", cube, "-o", "out.ply", "--log", "log.txt").exit_code == 0
     lines = Path("log.txt").read_text().splitlines()
     # meshlabserver, too, wrote behind what was there.
     assert lines[0] == before
@@ -354,7 +354,7 @@ def test_the_log_has_parameters_times_and_what_came_back(cube):
 def test_the_log_is_there_when_a_step_fails(cube):
     Path("points.xyz").write_text("0 0 0\n1 0 0\n0 1 0\n")
     script = script_file(("Select All", {}), FLIP)
-    result = call("run", script, "-i", "points.xyz", "-o", "out.ply", "-l", "log.txt")
+    result = call("run", script, "-i", "points.xyz", "-o", "out.ply", "--log", "log.txt")
     assert result.exit_code == 1
     assert result.stderr.startswith("Error: script.mlx, step 2 (meshing_edge_flip_by_willmore_opt")
     assert "has no faces" in result.stderr
@@ -485,7 +485,7 @@ def test_a_terminal_hears_of_compiling_only_while_something_is(monkeypatch, cube
 @pytest.mark.parametrize("closed", [">&-", "2>&-", "<&- >&- 2>&-"])
 def test_closed_streams_are_no_matter(script, cube, closed):
     # The log would get the free descriptor.
-    orders = f"run {script} -i {cube} -o out.ply -l log.txt"
+    orders = f"run {script} -i {cube} -o out.ply --log log.txt"
     command = f"{shlex.quote(sys.executable)} -m meshlab_willmore {orders} {closed}"
     done = subprocess.run(
         ["/bin/sh", "-c", command], capture_output=True, text=True, check=False, timeout=100

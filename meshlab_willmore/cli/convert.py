@@ -20,7 +20,7 @@ EXAMPLES = """\b
 Examples:
   meshlab-willmore convert old.mlx today.mlx
   meshlab-willmore convert clean.mlx for-the-window.mlx --meshlab
-  meshlab-willmore convert old.mlx - | meshlab-willmore run - -i a.ply -o b.ply
+  meshlab-willmore convert old.mlx - > today.mlx
 """
 
 

@@ -14,6 +14,9 @@ if TYPE_CHECKING:
 # What PyMeshLab writes, for people; whether it does is asked.
 COMMON = ("ply", "obj", "stl", "off", "3ds", "dae", "wrl", "x3d", "xyz", "dxf")
 
+# Files that name meshes and hold none.
+PROJECTS = frozenset({".mlp", ".mlb", ".aln", ".nvm"})
+
 # Their writers cut a path at its first dot, and leave files beside the folder they were given.
 _ASTRAY = frozenset({"u3d", "idtf"})
 # PyMeshLab does not load these; some of the writers crash for meshes as small as ours.

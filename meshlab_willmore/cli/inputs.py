@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..files import special
-from . import isolation, notes, stopping, unread
+from . import formats, isolation, notes, stopping, unheld, unread
 from .errors import WrongUse, reason, wrong_use
 
 if TYPE_CHECKING:
@@ -179,7 +179,8 @@ def load(ms: pymeshlab.MeshSet, path: Path) -> None:
         raise OSError(f"cannot read {path}: {_why(path, error)}") from error
     if ms.current_mesh().vertex_number() == 0:
         raise OSError(f"cannot read {path}: there is no mesh in it (no vertices)")
-    for loss in unread.losses(path, printed):
+    is_far = unheld.is_far(ms.current_mesh().vertex_matrix())
+    for loss in unread.losses(path, printed, is_far):
         notes.tell(f"{path}: {loss}")
 
 
@@ -192,6 +193,8 @@ def _try(path: Path) -> None:
 
 
 def _why(path: Path, error: Exception) -> str:
+    if path.suffix.lower() in formats.PROJECTS:
+        return "projects are not read; name their meshes after -i, with --layers"
     if not path.suffix:
         return "it has no ending that tells its format"
     if "Unknown format" in str(error):

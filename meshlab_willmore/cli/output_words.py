@@ -16,6 +16,7 @@ _OUTPUT = re.compile(r"(?:--output=|-o)(?P<value>.+)|--output|-o", re.DOTALL)
 _MASK = re.compile(r"(?:--mask=|-m).+|--mask|-m", re.DOTALL)
 _OLD = re.compile(r"-l(?P<value>.*)", re.DOTALL)
 _LAYER = re.compile(r"\d+|c|x")
+_NO_MASK = "-om"
 
 LAYER = "--layer"
 LOG = "--log"
@@ -50,6 +51,16 @@ def plain(
         else:
             result.append(word)
     return [*result, *args[end:]]
+
+
+def without_empty_masks(args: Sequence[str], is_script: Callable[[str], bool]) -> list[str]:
+    """The arguments without an ``-om`` that has nothing behind it: `meshlabserver` took it so."""
+    following = [*args[1:], _NO_MASK]
+    return [
+        word
+        for word, after in zip(args, following, strict=True)
+        if word != _NO_MASK or (_is_value(after) and not is_script(after))
+    ]
 
 
 class _Words:

@@ -119,6 +119,8 @@ def check_target(path: Path, force: bool) -> None:
     check_place(path, force)
     check_name(path)
     ending = path.suffix.lstrip(".")
+    if path.suffix.lower() in formats.PROJECTS:
+        raise wrong_use(f"{path}: projects are not written; each layer can have an -o of its own")
     if not ending or not formats.is_written(ending):
         told = f"PyMeshLab writes no {path.suffix} files" if ending else "it has no ending"
         raise wrong_use(

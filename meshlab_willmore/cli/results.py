@@ -26,11 +26,14 @@ class Wishes(NamedTuple):
         For each output, the layer as `output_words` has it; empty for none.
     force : bool
         Replace files that are there.
+    placed : set of Path
+        What this run has written; changed in place.
     """
 
     parts: tuple[tuple[str, ...], ...]
     layers: tuple[str, ...]
     force: bool
+    placed: set[Path]
 
 
 def loaded(job: Job, log: Log) -> pymeshlab.MeshSet:
@@ -68,7 +71,8 @@ def save(ms: pymeshlab.MeshSet, job: Job, wishes: Wishes, log: Log) -> str:
         ms.set_current_mesh(layer)
         with progress.shown(job.name) as status:
             status.begin(f"saving {path}")
-            files = saving.save(ms, path, saving.Wish(parts, wishes.force, origin))
+            wish = saving.Wish(parts, wishes.force, origin, wishes.placed)
+            files = saving.save(ms, path, wish)
         log.say(f"output {' '.join(map(str, files))} ({_size(ms)})")
         texts.append(f"{path} ({_size(ms)})")
     return ", ".join(texts)

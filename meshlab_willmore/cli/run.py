@@ -55,6 +55,7 @@ class Orders(NamedTuple):
     parts: tuple[tuple[str, ...], ...]
     layers: tuple[str, ...]
     force: bool
+    placed: set[Path]
     stop: bool
     dry_run: bool
 
@@ -71,7 +72,8 @@ class RunCommand(SeveralValues):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Take meshlabserver's spelling too, and note which -m stands behind which -o."""
-        words = output_words.plain(of_today(args), is_script, is_part)
+        words = of_today(output_words.without_empty_masks(args, is_script))
+        words = output_words.plain(words, is_script, is_part)
         parser = self.make_parser(ctx)
         *_, order = parser.parse_args(spelled_out(words, self.several))
         ctx.meta[_ORDER] = [option.name for option in order]
@@ -155,6 +157,7 @@ def command(script: str | None, also: str | None, **given: Any) -> None:
         tuple(by_output(order, given["parts"])),
         tuple(output_words.by_output(order, given["layer"], given["patterns"])),
         given["force"],
+        set(),
         given["stop"],
         given["dry_run"],
     )
@@ -232,7 +235,9 @@ def _run_one(orders: Orders, job: Job, log: Log) -> str:
         there = " and ".join(map(str, job.outputs)) or "no file"
         return f"{job.name}: fine; {counted(len(calls), 'step')} to run, then {there} to write"
     played = playing.play(ms, calls, orders.source, Path(job.name).name, log)
-    saved = results.save(ms, job, results.Wishes(orders.parts, orders.layers, orders.force), log)
+    saved = results.save(
+        ms, job, results.Wishes(orders.parts, orders.layers, orders.force, orders.placed), log
+    )
     seconds = time.perf_counter() - start
     line = f"{job.name} -> {saved}: {counted(len(calls), 'step')}, {seconds:.1f} s"
     return "\n".join([line, *told.steps(played)])

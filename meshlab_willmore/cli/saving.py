@@ -35,11 +35,15 @@ class Wish(NamedTuple):
         Replace files that are there.
     origin : Path or None
         The folder of the input: textures that are still as they were there are copied.
+    placed : set of Path or None
+        What was written before in this run, and is not replaced by something else; what is
+        written is added.
     """
 
     parts: tuple[str, ...] = ()
     force: bool = False
     origin: Path | None = None
+    placed: set[Path] | None = None
 
 
 def save(ms: pymeshlab.MeshSet, path: Path, wish: Wish) -> list[Path]:
@@ -63,10 +67,12 @@ def save(ms: pymeshlab.MeshSet, path: Path, wish: Wish) -> list[Path]:
         moves = _moves(folder, draft, path)
         for source, target in moves:
             _check_whole(source, target)
-        _check_free(moves, path, wish.force)
+        _check_free(moves, path, wish)
         for loss in unheld.losses(ms, draft, ending.lower(), bool(wish.parts)):
             notes.tell(f"{path}: {loss}")
         _place(moves)
+    if wish.placed is not None:
+        wish.placed.update(target.resolve() for _, target in moves)
     return [target for _, target in reversed(moves)]
 
 
@@ -143,13 +149,17 @@ def _check_whole(source: Path, target: Path) -> None:
         raise OSError(f"cannot write {target}: {error.strerror}") from error
 
 
-def _check_free(moves: list[tuple[Path, Path]], path: Path, force: bool) -> None:
+def _check_free(moves: list[tuple[Path, Path]], path: Path, wish: Wish) -> None:
     """Raise if a file of somebody else would be replaced without `force`, or what is no file."""
     for source, target in moves:
         refuse_special(target)
         if target.is_file() and filecmp.cmp(source, target, shallow=False) and target != path:
             continue
-        if os.path.lexists(target) and not force:
+        if wish.placed and target.resolve() in wish.placed:
+            raise OSError(
+                f"cannot write {path}: {target} is that of another output; give each a folder"
+            )
+        if os.path.lexists(target) and not wish.force:
             raise FileExistsError(f"cannot write {path}: {target} is there; --force replaces it")
 
 

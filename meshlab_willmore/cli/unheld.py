@@ -136,6 +136,15 @@ def _lost(mesh: pymeshlab.Mesh, ending: str, parts: Iterable[Part]) -> Iterator[
             yield part
 
 
+def is_far(vertices: np.ndarray) -> bool:
+    """Whether points are so much farther from the origin than from each other that digits lack."""
+    import numpy as np
+
+    if not len(vertices):
+        return False
+    return bool(np.abs(vertices).max() > _FAR * np.ptp(vertices, axis=0).max())
+
+
 def _merged(mesh: pymeshlab.Mesh, file: Path) -> int:
     """How many vertices of faces have the place of another in the file, and not in the mesh."""
     import numpy as np
@@ -143,9 +152,7 @@ def _merged(mesh: pymeshlab.Mesh, file: Path) -> int:
     vertices = mesh.vertex_matrix()
     if mesh.face_number():
         vertices = vertices[np.unique(mesh.face_matrix())]
-    far = np.abs(vertices).max(axis=0, initial=0.0)
-    wide = np.ptp(vertices, axis=0) if len(vertices) else far
-    if not (far.max() > _FAR * wide.max()):
+    if not is_far(vertices):
         return 0
     saved = _vertices_of(file)
     if saved is None:

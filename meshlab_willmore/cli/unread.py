@@ -22,6 +22,10 @@ _MATERIALS = re.compile(rb"^[ \t]*mtllib[ \t]+(\S[^\r\n]*?)[ \t\r]*$", re.MULTIL
 # Options of a texture and names with blanks, which PyMeshLab reads as no name at all.
 _TEXTURES = re.compile(rb"^[ \t]*map_Kd[ \t]+(\S+[ \t][^\r\n]*?)[ \t\r]*$", re.MULTILINE)
 
+# Texts that PyMeshLab reads in single precision.
+_SINGLE = (".stl", ".wrl", ".x3d", ".dae")
+_NUMBER = re.compile(rb"(?<![\w.])[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?(?![\w.])")
+
 _COLOURS = ("red", "green", "blue", "alpha")
 _NUMBERS = ("float", "double")
 # Element and property, and the types of numbers in which PyMeshLab takes it. It takes a
@@ -46,7 +50,7 @@ _KNOWN: dict[tuple[str, str], tuple[str, ...]] = {
 _NO_SURFACE = "camera"
 
 
-def losses(path: Path, printed: Iterable[str]) -> Iterator[str]:
+def losses(path: Path, printed: Iterable[str], is_far: bool) -> Iterator[str]:
     """What was left out, a text for each kind.
 
     Parameters
@@ -55,6 +59,8 @@ def losses(path: Path, printed: Iterable[str]) -> Iterator[str]:
         The file that was loaded.
     printed : iterable of str
         What PyMeshLab printed meanwhile.
+    is_far : bool
+        Whether the mesh is so far from the origin that single precision may be too little.
     """
     lines = list(printed)
     yield from _textures(path, [found[1] for line in lines if (found := _NO_TEXTURE.search(line))])
@@ -65,6 +71,8 @@ def losses(path: Path, printed: Iterable[str]) -> Iterator[str]:
     if skipped:
         yield f"lines that are no points, left out: {skipped}"
     ending = path.suffix.lower()
+    if is_far and ending in _SINGLE and _numbers_fall_together(path):
+        yield "so far from the origin, different coordinates become the same in single precision"
     if ending == ".ply":
         yield from _properties(path)
     elif ending == ".stl" and _ends_early(path):
@@ -133,6 +141,18 @@ def _properties(path: Path) -> Iterator[str]:
     if unknown:
         names = ", ".join(f"{p.name} ({p.element}, {p.type})" for p in unknown)
         yield f"properties that PyMeshLab does not read: {names}"
+
+
+def _numbers_fall_together(path: Path) -> bool:
+    """Whether numbers of a text are different, and the same in single precision."""
+    import numpy as np
+
+    data = path.read_bytes()
+    if b"\0" in data:
+        return False
+    numbers = np.array(sorted(set(_NUMBER.findall(data))), dtype=np.float64)
+    with np.errstate(over="ignore"):
+        return len(np.unique(numbers.astype(np.float32))) < len(np.unique(numbers))
 
 
 def _ends_early(path: Path) -> bool:

@@ -228,3 +228,25 @@ def test_same_result_as_alone():
     assert call("run", script, "-i", cube, "-o", "alone.ply").exit_code == 0
     assert call("run", script, "-i", "a.ply", cube, "-o", "{name}_two.ply").exit_code == 1
     assert same_mesh("alone.ply", "cube_two.ply")
+
+
+def test_textures_of_one_name_are_not_mixed_up():
+    pictures = {"a": ONE_PIXEL, "b": (SAMPLES / "TextureDouble_A.png").read_bytes()}
+    for folder, data in pictures.items():
+        square_with_textures(folder, "red.png")
+        (Path(folder) / "red.png").write_bytes(data)
+    Path("out").mkdir()
+    script = script_file(("Select None", {}))
+    inputs_given = ["-i", "a/square.obj", "b/square.obj"]
+    result = call("run", script, *inputs_given, "-o", "out/{index}.obj", "--force")
+    assert result.exit_code == 1
+    assert result.stderr.splitlines()[0] == (
+        "Error: b/square.obj: cannot write out/2.obj: out/red.png is that of another output; "
+        "give each a folder"
+    )
+    assert Path("out/red.png").read_bytes() == ONE_PIXEL
+    # Twice the same one is no matter.
+    again = call(
+        "run", script, "-i", "a/square.obj", "a/square.obj", "-o", "{index}.obj", "--force"
+    )
+    assert (again.exit_code, again.stderr) == (0, "")

@@ -7,7 +7,7 @@ import pytest
 
 from meshlab_willmore.cli.errors import WrongUse
 from meshlab_willmore.cli.masks import is_part
-from meshlab_willmore.cli.output_words import by_output, plain
+from meshlab_willmore.cli.output_words import by_output, plain, without_empty_masks
 from meshlab_willmore.cli.scripts import is_script
 
 from .conftest import TAUBIN, call, cube_file, listing, loaded, script_file
@@ -174,3 +174,31 @@ def test_every_combination_of_two_outputs(run):
         assert call(*run, *outputs, "--force").exit_code == 0
         sizes = [SIZES["square" if layer == "1" else "triangle"] for layer in (one, two)]
         assert [len(loaded(f"{name}.ply").vertices) for name in "ab"] == sizes
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("-i a.ply -o b.ply -s s.mlx -om", "-i a.ply -o b.ply -s s.mlx"),
+        ("-o b.ply -om -s s.mlx", "-o b.ply -s s.mlx"),
+        ("-o b.ply -om s.mlx", "-o b.ply s.mlx"),
+        ("-o b.ply -om vc s.mlx", "-o b.ply -om vc s.mlx"),
+    ],
+)
+def test_an_old_mask_with_nothing_in_it_is_none(line, said):
+    assert " ".join(without_empty_masks(line.split(), is_script)) == said
+
+
+@pytest.mark.parametrize(
+    ("option", "line"),
+    [
+        (["-i", "a.mlp"], "cannot read a.mlp: projects are not read; name their meshes after -i"),
+        (["-i", "cube.ply", "-o", "b.mlp"], "b.mlp: projects are not written; each layer can have"),
+    ],
+)
+def test_projects_are_named_as_such(option, line):
+    cube_file()
+    Path("a.mlp").write_text("<!DOCTYPE MeshLabDocument>\n<MeshLabProject/>\n")
+    result = call("run", script_file(TAUBIN), *option)
+    assert result.exit_code in (1, 2)
+    assert result.stderr.startswith(f"Error: {line}")

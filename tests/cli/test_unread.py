@@ -154,6 +154,20 @@ def test_a_text_that_ends_early(capsys):
     assert told("c.xyz", capsys) == ["lines that are no points, left out: 1"]
 
 
+@pytest.mark.parametrize(("step", "lost"), [(0.125, True), (8, False)])
+def test_a_text_far_from_the_origin(step, lost, capsys):
+    corners = [(0, 0), (step, 0), (step, step), (0, step)]
+    points = [f"vertex {4500000.125 + x} {5400000.125 + y} 7.5\n" for x, y in corners]
+    faces = [(0, 1, 2), (0, 2, 3)]
+    blocks = [
+        f"facet normal 0 0 1\nouter loop\n{''.join(points[i] for i in f)}endloop\nendfacet\n"
+        for f in faces
+    ]
+    Path("a.stl").write_text(f"solid a\n{''.join(blocks)}endsolid a\n")
+    note = "so far from the origin, different coordinates become the same in single precision"
+    assert (note in told("a.stl", capsys)) == lost
+
+
 def test_ordinary_files_give_no_note(capsys):
     for name in ("bone.ply", "airplane.obj", "colored_airplane.ply", "bunny10k_textured.obj"):
         inputs.loaded(SAMPLES / name)

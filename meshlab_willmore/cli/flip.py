@@ -75,7 +75,8 @@ def _help(parameter: Parameter) -> str:
 def command(source: str, target: Path, parts: tuple[str, ...], force: bool, **given: Any) -> None:
     """Flip edges of the mesh IN as long as an energy falls, and save it as OUT.
 
-    Vertices never move. The ending of OUT tells the format; it is there when it is whole.
+    Vertices never move. The ending of OUT tells the format; it is there when it is whole. What
+    loading or saving leaves out is told in a note.
     """
     from .inputs import expand, loaded
     from .outputs import check_target

@@ -108,8 +108,12 @@ def refuse_folder(path: Path, things: str, ending: str) -> None:
 def check(path: Path) -> None:
     """Raise `WrongUse` if there is no readable, non-empty file."""
     refuse_folder(path, "meshes", "*.ply")
-    if not os.path.exists(path):
-        raise wrong_use(f"there is no file {path}{_beside(path)}")
+    try:
+        os.stat(path)
+    except PermissionError as error:
+        raise wrong_use(f"{path} can't be read: permission denied") from error
+    except OSError as error:
+        raise wrong_use(f"there is no file {path}{_beside(path)}") from error
     kind = special(path)
     if kind:
         raise wrong_use(f"{path} is {kind}; meshes are read from files")

@@ -17,7 +17,7 @@ from contextlib import suppress
 from pathlib import Path
 
 # Some files that end early make PyMeshLab read or reserve memory without end.
-_SECONDS = 60.0
+_SECONDS = 20.0
 _SECONDS_PER_BYTE = 1e-6
 
 _FINE = b"+"

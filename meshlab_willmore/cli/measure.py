@@ -45,8 +45,8 @@ LEGEND = (
 def command(files: tuple[str, ...], as_json: bool) -> None:
     """Print Willmore energy, area and curvatures of meshes as a table.
 
-    A file that can't be measured is named on the standard error; the others are measured, and the
-    exit code is 1 in the end.
+    A file that can't be measured is named on the standard error, and so is what loading leaves out;
+    the others are measured, and the exit code is 1 in the end.
     """
     paths, count = _checked(files)
     measured = _measure_all(paths)

@@ -163,6 +163,9 @@ def check_place(
 def _check_length(path: Path) -> None:
     try:
         path.lstat()
+    except (FileNotFoundError, NotADirectoryError):
+        return
     except OSError as error:
         if error.errno == errno.ENAMETOOLONG:
             raise wrong_use(f"the output name {str(path)[:_SHOWN]}... is too long") from error
+        raise UnwritableError(path, error.strerror) from error

@@ -10,6 +10,7 @@ import pytest
 
 from meshlab_willmore.cli import inputs
 from meshlab_willmore.cli.errors import WrongUse
+from meshlab_willmore.cli.outputs import check_place
 
 from .conftest import (
     FLIP,
@@ -150,6 +151,25 @@ def test_an_input_without_permission(monkeypatch):
     assert result.exit_code == 1
     assert result.stderr.startswith("Error: b.off can't be read: permission denied\n")
     assert Path("a.ply").exists()
+
+
+def test_a_folder_that_nobody_may_enter(monkeypatch):
+    square("a.off")
+    stat = os.stat
+
+    def refuse(path, **given):
+        if Path(os.fspath(path)).parent.name == "closed":
+            raise PermissionError(13, "Permission denied")
+        return stat(path, **given)
+
+    Path("closed").mkdir()
+    square("closed/b.off")
+    monkeypatch.setattr(os, "stat", refuse)
+    with pytest.raises(WrongUse, match=r"closed/b\.off can't be read: permission denied"):
+        inputs.check(Path("closed/b.off"))
+    monkeypatch.setattr(Path, "lstat", refuse)
+    with pytest.raises(OSError, match=r"^cannot write closed/c\.ply: Permission denied$"):
+        check_place(Path("closed/c.ply"), force=False)
 
 
 def test_the_outputs_of_bad_inputs_are_no_matter():

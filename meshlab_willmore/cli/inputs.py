@@ -173,6 +173,7 @@ def load(ms: pymeshlab.MeshSet, path: Path) -> None:
     from ..meshset import native
 
     errors: tuple[type[Exception], ...] = (*native.ERRORS, OSError)
+    before = ms.mesh_number()
     native.forget_failures()
     try:
         with stopping.at_once(), native.muted():
@@ -183,6 +184,9 @@ def load(ms: pymeshlab.MeshSet, path: Path) -> None:
         raise OSError(f"cannot read {path}: {_why(path, error)}") from error
     if ms.current_mesh().vertex_number() == 0:
         raise OSError(f"cannot read {path}: there is no mesh in it (no vertices)")
+    count = ms.mesh_number() - before
+    if count > 1:
+        notes.tell(f"{path}: it holds {count} meshes; the last one is taken, others are layers")
     is_far = unheld.is_far(ms.current_mesh().vertex_matrix())
     for loss in unread.losses(path, printed, is_far):
         notes.tell(f"{path}: {loss}")

@@ -168,6 +168,29 @@ def test_a_text_far_from_the_origin(step, lost, capsys):
     assert (note in told("a.stl", capsys)) == lost
 
 
+def chunk(number, *parts):
+    data = b"".join(parts)
+    return struct.pack("<HI", number, len(data) + 6) + data
+
+
+def as_3ds(*names):
+    """A triangle for each name, as 3DS has it."""
+    points = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0)], "<f4").tobytes()
+    vertices = chunk(0x4110, struct.pack("<H", 3), points)
+    faces = chunk(0x4120, struct.pack("<5H", 1, 0, 1, 2, 0))
+    meshes = [
+        chunk(0x4000, name.encode() + b"\0", chunk(0x4100, vertices, faces)) for name in names
+    ]
+    return chunk(0x4D4D, chunk(0x0002, struct.pack("<I", 3)), chunk(0x3D3D, *meshes))
+
+
+@pytest.mark.parametrize("names", ["a", "ab", "abc"])
+def test_several_meshes_in_a_file(names, capsys):
+    Path("a.3ds").write_bytes(as_3ds(*names))
+    note = f"it holds {len(names)} meshes; the last one is taken, others are layers"
+    assert told("a.3ds", capsys) == [note] * (len(names) > 1)
+
+
 def test_ordinary_files_give_no_note(capsys):
     for name in ("bone.ply", "airplane.obj", "colored_airplane.ply", "bunny10k_textured.obj"):
         inputs.loaded(SAMPLES / name)

@@ -60,8 +60,12 @@ class Parameter(NamedTuple):
 
     def _expected(self) -> str:
         if self.type is str:
-            return "one of its names, or an index" if self.choices else "a text or a number"
+            return f"one of {self._listed()}" if self.choices else "a text or a number"
         return _EXPECTED[self.type]
+
+    def _listed(self) -> str:
+        """The choices, each with its index, which may be given instead."""
+        return ", ".join(f"{index} '{choice}'" for index, choice in enumerate(self.choices))
 
     def read(self, value: Any) -> Any:
         """The value that a caller gave, in the parameter's own type; an enum's index.
@@ -125,13 +129,14 @@ def _read_enum(parameter: Parameter, value: Any) -> int:
         if value not in choices:
             known = "".join(f"'{choice}'; " for choice in choices)
             raise pymeshlab.InvalidEnumException(
-                f"Enum '{value}' not found. Possible values are {known}"
+                f"Parameter {parameter.name}: Enum '{value}' not found. Possible values are {known}"
             )
         return choices.index(value)
     index = operator.index(value)
     if not 0 <= index < len(choices):
         raise pymeshlab.InvalidEnumException(
-            f"Enum {index} not valid. Must be a value between 0 and {len(choices)}"
+            f"Parameter {parameter.name}: Enum {index} not valid. Must be a value between 0 and "
+            f"{len(choices) - 1}: {parameter._listed()}"
         )
     return index
 

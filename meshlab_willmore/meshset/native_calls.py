@@ -62,7 +62,7 @@ def prepared(ms: MeshSet, name: object, given: dict[str, Any]) -> Iterator[dict[
     finally:
         for mesh_id in shown:
             native.show(ms, mesh_id, False)
-        _hand_over(ms, name, there, current)
+        _hand_over(ms, name, there)
 
 
 def parameter_values(
@@ -120,20 +120,25 @@ def _partners(
     return {key: there[min(place, len(there) - 1)] for key, place in places.items()}
 
 
-def _hand_over(ms: MeshSet, name: object, before: Sequence[int], current: int | None) -> None:
-    """Make current what PyMeshLab would after a filter that deleted layers, by its order.
+def _hand_over(ms: MeshSet, name: object, before: Sequence[int]) -> None:
+    """Make current what PyMeshLab would after a filter that deleted layers, by logical ids.
 
-    After the deleted one it takes the next of its list, and after the last one the first. The
-    filter that deletes hidden layers does so whichever layer was current.
+    It takes the one after the last deleted of its list, and at the end of the list the first.
     """
     gone = [i for i in before if not native.is_there(ms, i)]
-    now = native.current_id(ms)
-    is_new = now is not None and now not in before and now not in layers.parked(ms)
-    if not gone or is_new or (current not in gone and name != _DELETE_HIDDEN):
+    # A merged layer is made current whatever is deleted.
+    if not gone or name == _MERGE:
         return
-    place = before.index(gone[-1])
-    others = (*before[place + 1 :], *before[:place])
-    native.make_current(ms, next((i for i in others if i not in gone), None))
+    now, there = native.current_id(ms), layers.visible_ids(ms)
+    if now is None or now in layers.parked(ms) or now == _after(max(gone), native.ids(ms)):
+        logical = {numbering.logical_id(ms, i): i for i in there}
+        successor = _after(numbering.logical_id(ms, gone[-1]), list(logical))
+        native.make_current(ms, None if successor is None else logical[successor])
+
+
+def _after(deleted: int, ids: Sequence[int]) -> int | None:
+    """The id after a deleted one, of ascending ids; after the last one the first."""
+    return next((i for i in ids if i > deleted), next(iter(ids), None))
 
 
 def _still_held(ms: MeshSet, what: str) -> pymeshlab.PyMeshLabException:

@@ -2,6 +2,8 @@
 
 import enum
 import random
+import tempfile
+from pathlib import Path
 
 import numpy as np
 import pymeshlab
@@ -91,6 +93,40 @@ class Both:
         self.let_all_go()
         self.call(lambda ms: ms.generate_by_merging_visible_meshes())
 
+    def split(self):
+        self.let_all_go()
+        given = {"delete_source_mesh": self.random.random() < 0.5}
+        self.call(lambda ms: ms.generate_splitting_by_connected_components(**given))
+
+    def flip_all_in_a_loop(self):
+        for mesh in self.flipped:
+            self.flipped.set_current_mesh(mesh.id())
+            self.flipped.apply_filter(FLIP, maxflips=1)
+        for mesh in self.plain:
+            self.plain.set_current_mesh(mesh.id())
+
+    def run_script(self):
+        """Steps that copy the current mesh, use two by their numbers, and delete the copy."""
+        self.let_all_go()
+        ids = [mesh.id() for mesh in self.plain]
+        pair = self.random.sample(ids, 2) if len(ids) > 1 else ()
+        steps = [("Duplicate Current layer", {}), ("Delete Current Mesh", {})]
+        if pair:
+            keys = dict(zip(("SourceMesh", "TargetMesh"), pair, strict=True))
+            steps.insert(1, ("Vertex Attribute Transfer", keys))
+        script = "".join(
+            f'<filter name="{name}">'
+            + "".join(f'<Param type="RichMesh" name="{k}" value="{i}"/>' for k, i in keys.items())
+            + "</filter>"
+            for name, keys in steps
+        )
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "script.mlx"
+            path.write_text(f"<FilterScript>{script}</FilterScript>")
+            self.call(lambda ms: ms.load_filter_script(str(path)))
+        self.call(lambda ms: ms.apply_filter_script())
+        self.call(lambda ms: ms.clear_filter_script())
+
     def clear(self):
         self.let_all_go()
         self.call(lambda ms: ms.clear())
@@ -136,6 +172,9 @@ WITH_A_MESH = {
     "show": 2,
     "measure": 2,
     "merge": 0.5,
+    "split": 1,
+    "flip_all_in_a_loop": 1,
+    "run_script": 1,
 }
 
 

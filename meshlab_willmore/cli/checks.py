@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import os
 import re
+import shlex
 import shutil
 import sys
 import tempfile
+from collections.abc import Sequence
 from importlib import metadata
 from pathlib import Path
 from typing import NamedTuple
 
 from .. import machine
 from .._version import __version__
-from . import probe
+from . import cache_notes, probe
 from .columns import counted
 
 OLDEST_PYTHON = (3, 10)
@@ -205,19 +207,18 @@ def cache() -> Finding:
     if folder:
         text = f"{folder}: {machine.unwritable(Path(folder))}"
     if not folder or machine.unwritable(Path(folder)):
-        return Finding(name, False, text, f"export {machine.CACHE_DIR}={_own_cache()}")
+        return Finding(name, False, text, cache_notes.cure())
+    if answer.values.get("damaged"):
+        return _damage(answer.values["damaged"])
     return Finding(name, True, f"{folder} ({_warmth(**answer.values)})")
 
 
-def _own_cache() -> Path:
-    """A folder for the cache, in the home where there is one that can be written."""
-    try:
-        home = Path.home()
-    except RuntimeError:
-        home = Path()
-    if not home.is_absolute() or machine.unwritable(home):
-        return Path("/a/folder/of/yours")
-    return home / ".cache" / "numba"
+def _damage(paths: Sequence[str]) -> Finding:
+    """The finding for files of the cache that are not as they were written."""
+    names = paths if len(paths) <= _NAMED else sorted({str(Path(path).parent) for path in paths})
+    shown = ", ".join(names[:_NAMED])
+    text = f"{counted(len(paths), 'file')} damaged, compiled anew when needed: {shown}"
+    return Finding("Numba's cache", False, text, f"rm -r {shlex.join(names)}")
 
 
 def _warmth(missing: int | None, steps: int, **_: object) -> str:

@@ -49,6 +49,7 @@ from meshlab_willmore import warmup
 from meshlab_willmore.mesh import compiling, jit
 folder = jit.cache_folder()
 answer = {"folder": folder, "steps": len(warmup.steps()), "missing": None}
+answer["damaged"] = jit.damaged_entries()
 if folder and compiling.CAN_TELL:
     answer["missing"] = len(warmup.missing())
 """

@@ -19,6 +19,8 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from typing import Any, TextIO
 
+from . import cache_notes
+
 SECONDS_ON_A_TERMINAL = 1.0
 SECONDS_IN_A_LOG = 60.0
 
@@ -141,15 +143,16 @@ def with_details(status: Status) -> Iterator[None]:
     from ..mesh import compiling
     from ..mesh.status import heard_by
 
-    with heard_by(status.detail), compiling.followed(_compiling(status)):
-        yield
+    has_compiled = False
 
-
-def _compiling(status: Status) -> Callable[[str], None]:
     def follow(name: str) -> None:
+        nonlocal has_compiled
+        has_compiled = True
         status.detail(f"compiling {name}" if name else "")
 
-    return follow
+    with heard_by(status.detail), compiling.followed(follow):
+        yield
+    cache_notes.tell(has_compiled)
 
 
 class _Screen:

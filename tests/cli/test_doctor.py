@@ -213,6 +213,22 @@ def test_a_folder_of_the_users_that_is_of_no_use_for_the_cache(monkeypatch, tmp_
     )
 
 
+def test_damaged_files_of_the_cache_are_named(monkeypatch, tmp_path):
+    monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
+    values = {"folder": str(tmp_path), "steps": 9, "missing": 0}
+    answering(monkeypatch, {**values, "damaged": ["/c a/one.nbc"]})
+    assert checks.cache() == Finding(
+        "Numba's cache",
+        False,
+        "1 file damaged, compiled anew when needed: /c a/one.nbc",
+        "rm -r '/c a/one.nbc'",
+    )
+    answering(monkeypatch, {**values, "damaged": [f"/c/{i}/{i}.nbc" for i in "1212121212"]})
+    finding = checks.cache()
+    assert finding.text.startswith("10 files damaged, ")
+    assert finding.cure == "rm -r /c/1 /c/2"
+
+
 @pytest.mark.parametrize("home", ["file", "relative", None])
 def test_a_home_that_nobody_can_write_is_no_cure(monkeypatch, tmp_path, home):
     monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)

@@ -109,7 +109,10 @@ def _folders(source):
     if config.CACHE_DIR:
         yield str(Path(config.CACHE_DIR).absolute() / shared)
     yield str(source.parent / "__pycache__")
-    yield str(Path(AppDirs(appname="numba", appauthor=False).user_cache_dir).absolute() / shared)
+    own = Path(AppDirs(appname="numba", appauthor=False).user_cache_dir)
+    # Without a home it is a folder called ~, in whatever folder the process works.
+    if own.is_absolute():
+        yield str(own / shared)
 
 
 @functools.cache

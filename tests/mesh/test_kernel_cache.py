@@ -145,3 +145,12 @@ def test_the_sources_take_no_constants_from_other_files():
     }
     # How many items a thread gets at a time; no kernel sees it.
     assert {name for name, _ in others if name.isupper()} == {"PIECE"}
+
+
+def test_without_a_home_nothing_is_kept_in_the_working_folder(monkeypatch, tmp_path):
+    monkeypatch.setattr(kernel_cache.config, "CACHE_DIR", "")
+    for name in ("XDG_CACHE_HOME", "LOCALAPPDATA", "APPDATA"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setattr("os.path.expanduser", lambda path: path)
+    source = tmp_path / "source.py"
+    assert list(kernel_cache._folders(source)) == [str(tmp_path / "__pycache__")]

@@ -128,10 +128,17 @@ def unwritable(folder: Path) -> str:
     if not existing.is_dir():
         return "it is a file" if existing == folder else f"{existing} is a file"
     try:
-        tempfile.TemporaryFile(dir=existing).close()
+        _write_a_little(existing)
     except OSError as error:
         return os.strerror(error.errno) if error.errno else str(error)
     return ""
+
+
+def _write_a_little(folder: Path) -> None:
+    with tempfile.TemporaryFile(dir=folder) as file:
+        file.write(bytes(_LITTLE))
+        file.flush()
+        os.fsync(file.fileno())
 
 
 def _is_count(text: str) -> bool:
@@ -212,10 +219,7 @@ def temporary_folder(needed: int = 0) -> Iterator[Path]:
 def _is_full(folder: Path) -> bool:
     """Whether not even a little more can be written; who failed at it need not have told."""
     try:
-        with tempfile.TemporaryFile(dir=folder) as file:
-            file.write(bytes(_LITTLE))
-            file.flush()
-            os.fsync(file.fileno())
+        _write_a_little(folder)
     except OSError:
         return True
     return False

@@ -29,6 +29,9 @@ def tell(has_compiled: bool) -> None:
     from ..mesh.jit import cache_folder
     from ..mesh.kernel_cache import write_errors
 
+    if machine.cache_problem() is not None:
+        # That was said when Numba was imported.
+        return
     if write_errors:
         error = write_errors[-1]
         why = os.strerror(error.errno) if error.errno else str(error)

@@ -27,6 +27,7 @@ SECONDS_IN_A_LOG = 60.0
 _BAR = 16
 # In windows that are narrower there is room for nothing else.
 _ROOM_FOR_LABEL = 40
+_LEAST_SHOWN = 10
 _DOTS = "..."
 
 
@@ -87,13 +88,22 @@ class Status:
         if room >= _ROOM_FOR_LABEL:
             bar = self._bar()
             head = f"{_end_of(self._label, room // 3)}{bar}  "
-        text = _beginning_of(self._text(), room - _width(head) - len(seconds))
+        text = self._text_in(room - _width(head) - len(seconds))
         return _beginning_of(f"{head}{text}{seconds}", room)
 
     def sentence(self) -> str:
         """The whole line for a log."""
         part = f" ({self._done + 1} of {self._total})" if self._total else ""
         return f"{self._label}: {self._text()}{part}, {self._seconds()} s so far"
+
+    def _text_in(self, columns: int) -> str:
+        """The text in so many columns; what is the news there goes before what it belongs to."""
+        left = columns - _width(self._detail) - 2
+        if not self._detail or _width(self._what) <= left:
+            return _beginning_of(self._text(), columns)
+        if left < _LEAST_SHOWN:
+            return _beginning_of(self._detail, columns)
+        return f"{_beginning_of(self._what, left)}: {self._detail}"
 
     def _text(self) -> str:
         return ": ".join(filter(None, (self._what, self._detail)))

@@ -52,6 +52,16 @@ def test_what_is_done_and_since_when():
     assert status.line(80) == "scan.ply  [####------------]  25%  saving, 0 s"
 
 
+def test_where_there_is_little_room_the_news_goes_first():
+    status = Status("scan.ply", 8)
+    status.begin("meshing_edge_flip_by_willmore_optimization")
+    status.detail("round 7, 52 flips")
+    head = "scan.ply  [----------------]   0%  "
+    assert status.line(80) == f"{head}meshing_edge_flip...: round 7, 52 flips, 0 s"
+    status.detail("compiling search.entries.greedy_willmore")
+    assert status.line(80) == f"{head}compiling search.entries.greedy_will..., 0 s"
+
+
 @pytest.mark.parametrize("width", [200, 132, 80, 60, 41, 40, 39, 20, 10, 5, 3, 1])
 @pytest.mark.parametrize("total", [0, 1000])
 @pytest.mark.parametrize("name", ["a.ply", LONG, WIDE])

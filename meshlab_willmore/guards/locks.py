@@ -9,7 +9,7 @@ import numpy as np
 
 from ..mesh.build import sort_by_vertex
 from ..mesh.halfedge import NONE, diamond, following, previous
-from ..mesh.jit import inner, jit
+from ..mesh.jit import at, inner, jit
 from .fold import dihedral_angle, triangle_shape
 
 # Files hold coordinates in single precision: that far, in radians, the angles of a technical part
@@ -67,9 +67,18 @@ def lock_seams(mesh, uv):
         t = mesh.twin[h]
         if h < t and (_differ(uv, h, following(t)) or _differ(uv, following(h), t)):
             _lock(mesh, h)
-        if not np.isfinite(uv[h]).all():
+        if not _is_finite(uv, h):
             for side in (h, following(h), previous(h)):
                 _lock(mesh, side)
+
+
+@inner
+def _is_finite(uv, a):
+    """Tell whether all texture coordinates of a corner are finite."""
+    is_finite = True
+    for column in range(uv.shape[1]):
+        is_finite &= math.isfinite(uv[at(a), at(column)])
+    return is_finite
 
 
 @inner
@@ -77,7 +86,7 @@ def _differ(uv, a, b):
     """Tell whether two corners have different texture coordinates."""
     differ = False
     for column in range(uv.shape[1]):
-        differ |= uv[a, column] != uv[b, column]
+        differ |= uv[at(a), at(column)] != uv[at(b), at(column)]
     return differ
 
 

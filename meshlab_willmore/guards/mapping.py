@@ -16,12 +16,13 @@ Signs are exact. Besides, a new triangle that is not flat must be so far from it
 for the area gives the right sign in floating point.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
 from ..mesh.halfedge import previous
-from ..mesh.jit import at, inner
+from ..mesh.jit import at, inner, jit
 from .predicates import orient2d
 
 NO_MAPPING = np.empty((0, 0))
@@ -53,9 +54,27 @@ def mapping_of(wedge_uv, order):
         Scaled by powers of two, so that products neither overflow nor underflow.
     """
     uv = wedge_uv[order].reshape(-1, wedge_uv.shape[2])
-    sizes = np.where(np.isfinite(uv), np.abs(uv), 0.0).max(axis=0, initial=0.0)
-    _, exponents = np.frexp(sizes.reshape(-1, 2).max(axis=1, initial=0.0))
-    return np.ldexp(uv, -np.repeat(exponents, 2))
+    _bring_to_unit_scale(uv)
+    return uv
+
+
+@jit
+def _bring_to_unit_scale(uv):
+    """Scale each mapping, in place, so that its largest finite coordinate lies in [0.5, 1)."""
+    for first in range(0, uv.shape[1], 2):
+        largest = 0.0
+        for row in range(len(uv)):
+            for column in (first, first + 1):
+                size = abs(uv[at(row), at(column)])
+                if largest < size < np.inf:
+                    largest = size
+        _, exponent = math.frexp(largest)
+        # Two steps, as 2**-exponent itself may not be a float.
+        half = -exponent // 2
+        one, other = math.ldexp(1.0, half), math.ldexp(1.0, -exponent - half)
+        for row in range(len(uv)):
+            for column in (first, first + 1):
+                uv[at(row), at(column)] = uv[at(row), at(column)] * one * other
 
 
 @inner

@@ -119,11 +119,12 @@ def test_no_texture_triangle_is_turned_over_or_made_flat(search, energy, name):
     assert result.flips > 0
 
 
-def test_without_the_guard_triangles_are_turned_over():
-    for name, (vertices, faces, wedges) in MAPPED.items():
-        result = optimize_flips(vertices, faces, energy="area", foldangle=180.0)
-        old, new = counts(wedges), counts(carried(wedges, result))
-        assert new[0] < old[0] or new[1] < old[1] or name == "closed"
+@pytest.mark.parametrize("name", ["bumpy grid", "mirrored"])
+def test_without_the_guard_triangles_are_turned_over(name):
+    vertices, faces, wedges = MAPPED[name]
+    result = optimize_flips(vertices, faces, energy="area", foldangle=180.0)
+    old, new = counts(wedges), counts(carried(wedges, result))
+    assert new[0] < old[0] or new[1] < old[1]
 
 
 @pytest.mark.heavy

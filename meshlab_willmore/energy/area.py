@@ -8,13 +8,7 @@ import math
 
 from ..mesh.halfedge import diamond
 from ..mesh.jit import inner, jit
-from ..mesh.points import subtract
 from .triangles import ROUNDING, corners, has_coincident_corners, twice_area
-
-
-@inner
-def _twice_area_of(a, b, c):
-    return twice_area(subtract(b, a), subtract(c, b), subtract(a, c))
 
 
 @inner
@@ -38,8 +32,8 @@ def cost_reduction(mesh, h):
     if has_coincident_corners(quad):
         return -math.inf
     i, j, k, l = quad
-    before = _twice_area_of(i, j, k) + _twice_area_of(j, i, l)
-    after = _twice_area_of(k, i, l) + _twice_area_of(l, j, k)
+    before = twice_area(i, j, k) + twice_area(j, i, l)
+    after = twice_area(k, i, l) + twice_area(l, j, k)
     gain = 0.5 * (before - after)
     # Beside a small part there may be a huge one: what counts as rounding depends on the faces.
     if abs(gain) <= ROUNDING * (before + after):
@@ -53,5 +47,5 @@ def total(mesh):
     twice = 0.0
     for f in range(len(mesh.origin) // 3):
         a, b, c = corners(mesh, f)
-        twice += _twice_area_of(a, b, c)
+        twice += twice_area(a, b, c)
     return 0.5 * twice

@@ -20,25 +20,23 @@ import math
 
 from ..mesh.halfedge import diamond
 from ..mesh.jit import inner, jit
-from ..mesh.points import dot, subtract
-from .triangles import corners, has_coincident_corners, twice_area
+from ..mesh.points import norm
+from ..mesh.rounding import good_normal
+from .triangles import ROUNDING, corners, has_coincident_corners
 
-# A face as flat as the rounding of coordinates in single precision makes it counts as one of this
-# sum, also if it has no area at all: then an infinite sum would forbid the flip that removes it.
-# And its value, the same function of the face whenever it is computed, leaves room in a sum of few
-# for steps of 1e-7, which is what a search goes by.
-FLATTEST = 2.0**24
+# A face without area counts as one of this sum: an infinite one would forbid the flip that removes
+# it. Flatter than this, and still not quite flat, are hardly any.
+FLATTEST = 2.0**60
 
 
 @inner
 def _cotangents(a, b, c):
-    """Return the sum of the cotangents of the angles of a triangle."""
-    ab, bc, ca = subtract(b, a), subtract(c, b), subtract(a, c)
-    squares = dot(ab, ab) + dot(bc, bc) + dot(ca, ca)
-    four_areas = 2.0 * twice_area(ab, bc, ca)
+    """Return the sum of the cotangents of the angles of a triangle, and whether it is larger."""
+    normal, squares = good_normal(a, b, c)
+    four_areas = 2.0 * norm(normal)
     if four_areas * FLATTEST <= squares:
-        return FLATTEST
-    return squares / four_areas
+        return FLATTEST, four_areas > 0.0
+    return squares / four_areas, False
 
 
 @inner
@@ -54,15 +52,25 @@ def cost_reduction(mesh, h):
     Returns
     -------
     float
-        A pure number; positive where the flip helps, minus infinity where corners of the diamond
-        coincide. It depends on the two faces at `h` only.
+        A pure number; positive where the flip helps, 0 where it changes no more than rounding does,
+        minus infinity where corners of the diamond coincide or a face has more than `FLATTEST`
+        without being flat. It depends on the two faces at `h` only.
     """
     quad = diamond(mesh, h)
     if has_coincident_corners(quad):
         return -math.inf
     i, j, k, l = quad
-    before = _cotangents(i, j, k) + _cotangents(j, i, l)
-    gain = before - (_cotangents(k, i, l) + _cotangents(l, j, k))
+    before, after = 0.0, 0.0
+    for old, new in (((i, j, k), (k, i, l)), ((j, i, l), (l, j, k))):
+        had, had_more = _cotangents(*old)
+        has, has_more = _cotangents(*new)
+        if had_more or has_more:
+            return -math.inf
+        before += had
+        after += has
+    gain = before - after
+    if abs(gain) <= ROUNDING * (before + after):
+        return 0.0
     return gain if math.isfinite(gain) else -math.inf
 
 
@@ -72,5 +80,5 @@ def total(mesh):
     cotangents = 0.0
     for f in range(len(mesh.origin) // 3):
         a, b, c = corners(mesh, f)
-        cotangents += _cotangents(a, b, c)
+        cotangents += _cotangents(a, b, c)[0]
     return cotangents

@@ -1,7 +1,7 @@
 """The total absolute mean curvature of a mesh: the sum of |theta| |e| over its interior edges.
 
 theta is the angle between the normals of the two faces at e, in [0, pi] and 0 where they are
-coplanar or one of them is too flat to have a normal. The sum has the unit of a length. Boundary
+coplanar or one of them has no area, and so no normal. The sum has the unit of a length. Boundary
 edges have no angle and contribute nothing. Source of the definition: "Mesh optimisation based on
 Willmore energy", section 2.
 
@@ -13,23 +13,9 @@ import math
 
 from ..mesh.halfedge import NONE, apex, diamond, following, previous
 from ..mesh.jit import inner, jit
-from ..mesh.points import Point, angle_between, cross, dot, norm, point, subtract
+from ..mesh.points import angle_between, norm, point, subtract
+from ..mesh.rounding import good_direction
 from .triangles import ROUNDING, has_coincident_corners
-
-# Twice the area over the sum of the squared sides, below which the normal of a face is made of the
-# rounding of its coordinates, and depends on the corner that it is computed at.
-FLATTEST = 1e-7
-NO_NORMAL = Point(0.0, 0.0, 0.0)
-
-
-@inner
-def _normal(a, b, c):
-    """Return a normal of the triangle (a, b, c), `NO_NORMAL` if it is too flat to have one."""
-    ab, bc, ca = subtract(b, a), subtract(c, b), subtract(a, c)
-    vector = cross(ab, bc)
-    if norm(vector) <= FLATTEST * (dot(ab, ab) + dot(bc, bc) + dot(ca, ca)):
-        return NO_NORMAL
-    return vector
 
 
 @inner
@@ -43,7 +29,7 @@ def _side(mesh, side, a, b, before, after):
     t = mesh.twin[side]
     if t == NONE:
         return 0.0, 0.0
-    outside = _normal(b, a, point(mesh.vertices, apex(mesh, t)))
+    outside = good_direction(b, a, point(mesh.vertices, apex(mesh, t)))
     length = norm(subtract(b, a))
     return length * angle_between(before, outside), length * angle_between(after, outside)
 
@@ -70,8 +56,8 @@ def cost_reduction(mesh, h):
         return -math.inf
     i, j, k, l = quad
     t = mesh.twin[h]
-    at_k, at_l = _normal(i, j, k), _normal(j, i, l)
-    at_i, at_j = _normal(k, i, l), _normal(l, j, k)
+    at_k, at_l = good_direction(i, j, k), good_direction(j, i, l)
+    at_i, at_j = good_direction(k, i, l), good_direction(l, j, k)
     if _is_none(at_i) or _is_none(at_j):
         return -math.inf
     before = angle_between(at_k, at_l) * norm(subtract(j, i))
@@ -96,5 +82,6 @@ def total(mesh):
     for h in range(len(mesh.origin)):
         if h < mesh.twin[h]:
             i, j, k, l = diamond(mesh, h)
-            bends += angle_between(_normal(i, j, k), _normal(j, i, l)) * norm(subtract(j, i))
+            bend = angle_between(good_direction(i, j, k), good_direction(j, i, l))
+            bends += bend * norm(subtract(j, i))
     return bends

@@ -4,6 +4,7 @@ import math
 
 from ..mesh.jit import inner
 from ..mesh.points import cross, dot, norm, point
+from ..mesh.rounding import good_normal
 from .angles import Turn
 
 # A difference of sums below this part of them is made of rounding. The faces themselves say how
@@ -22,18 +23,9 @@ def corners(mesh, f):
 
 
 @inner
-def twice_area(ab, bc, ca):
-    """Return twice the area of the triangle with these side vectors.
-
-    The two shorter sides enclose the angle of the largest sine, so their product is the one that
-    rounding harms least: of a needle, all digits are good.
-    """
-    ab2, bc2, ca2 = dot(ab, ab), dot(bc, bc), dot(ca, ca)
-    if ab2 >= bc2 and ab2 >= ca2:
-        return norm(cross(bc, ca))
-    if bc2 >= ca2:
-        return norm(cross(ca, ab))
-    return norm(cross(ab, bc))
+def twice_area(a, b, c):
+    """Return twice the area of a triangle; of a thin one, too, all digits are good."""
+    return norm(good_normal(a, b, c)[0])
 
 
 @inner

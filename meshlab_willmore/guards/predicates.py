@@ -15,11 +15,10 @@ import numpy as np
 
 from ..mesh.jit import inner
 from ..mesh.points import Point, cross, dot, subtract
+from ..mesh.rounding import tail_of_product, tail_of_sum, tails
 
 # Half a unit in the last place, relative.
 UNIT = 2.0**-53
-# A factor that splits a float into two halves of 26 bits.
-SPLITTER = 2.0**27 + 1.0
 # Error bounds, as multiples of the same expression with all terms made positive.
 BOUND_2D = 4.0 * UNIT
 BOUND_3D = 8.0 * UNIT
@@ -32,25 +31,6 @@ ROOM_3D = 24 * 4
 
 
 @inner
-def _tail_of_sum(a, b, rounded):
-    """Return exactly what `rounded`, the float a + b, lacks."""
-    b_part = rounded - a
-    return (a - (rounded - b_part)) + (b - b_part)
-
-
-@inner
-def _tail_of_product(a, b, rounded):
-    """Return exactly what `rounded`, the float a * b, lacks."""
-    a_big = SPLITTER * a
-    a_high = a_big - (a_big - a)
-    a_low = a - a_high
-    b_big = SPLITTER * b
-    b_high = b_big - (b_big - b)
-    b_low = b - b_high
-    return a_low * b_low - (((rounded - a_high * b_high) - a_low * b_high) - a_high * b_low)
-
-
-@inner
 def _add(expansion, count, value):
     """Add `value` to the first `count` floats, in place; return how many there are now.
 
@@ -59,7 +39,7 @@ def _add(expansion, count, value):
     kept = 0
     for place in range(count):
         total = value + expansion[place]
-        tail = _tail_of_sum(value, expansion[place], total)
+        tail = tail_of_sum(value, expansion[place], total)
         value = total
         if tail != 0.0:
             expansion[kept] = tail
@@ -73,14 +53,14 @@ def _add(expansion, count, value):
 @inner
 def _add_product(expansion, count, a, b):
     rounded = a * b
-    count = _add(expansion, count, _tail_of_product(a, b, rounded))
+    count = _add(expansion, count, tail_of_product(a, b, rounded))
     return _add(expansion, count, rounded)
 
 
 @inner
 def _add_triple(expansion, count, a, b, c):
     rounded = a * b
-    count = _add_product(expansion, count, _tail_of_product(a, b, rounded), c)
+    count = _add_product(expansion, count, tail_of_product(a, b, rounded), c)
     return _add_product(expansion, count, rounded, c)
 
 
@@ -114,16 +94,6 @@ def _sign_of(expansion, count):
 
 
 @inner
-def _tails(a, d, rounded):
-    """Return what the vector `rounded` from `d` to `a` lacks."""
-    return Point(
-        _tail_of_sum(a.x, -d.x, rounded.x),
-        _tail_of_sum(a.y, -d.y, rounded.y),
-        _tail_of_sum(a.z, -d.z, rounded.z),
-    )
-
-
-@inner
 def _is_zero(a):
     return a.x == 0.0 and a.y == 0.0 and a.z == 0.0
 
@@ -135,7 +105,7 @@ def _orient3d_again(a, b, c, d, size):
     expansion = np.empty(ROOM_3D)
     u, v, w = subtract(a, d), subtract(b, d), subtract(c, d)
     count = _add_determinant(expansion, 0, u, v, w)
-    u_tail, v_tail, w_tail = _tails(a, d, u), _tails(b, d, v), _tails(c, d, w)
+    u_tail, v_tail, w_tail = tails(a, d, u), tails(b, d, v), tails(c, d, w)
     if _is_zero(u_tail) and _is_zero(v_tail) and _is_zero(w_tail):
         return _sign_of(expansion, count)
     rounded = 0.0

@@ -8,6 +8,8 @@ import numpy as np
 # Half-edges are numbered 3 f + c in int32.
 MOST_FACES = (2**31 - 1) // 3
 MOST_VERTICES = 2**31 - 1
+# Least coordinate at unit scale: the difference of two is above 2**-202, or none.
+LEAST = 2.0**-150
 REPAIR_NULL_FACES = "meshing_remove_null_faces"
 REPAIR_NOT_FINITE = (
     "the PyMeshLab filters compute_selection_by_condition_per_vertex"
@@ -215,9 +217,10 @@ def to_unit_scale(vertices, faces):
     -------
     scaled : (n, 3) float64
         A new array, exact, with the largest coordinate of a face's vertex in [0.5, 1); vertices
-        of no face are set to 0.
+        of no face are set to 0, and so are coordinates below `LEAST`, since products of even
+        smaller lengths leave the range of floats.
     exponent : int
-        ``vertices == scaled * 2**exponent``.
+        But for these, ``vertices == scaled * 2**exponent``.
     """
     used = np.zeros(len(vertices), bool)
     used[faces.ravel()] = True
@@ -228,6 +231,7 @@ def to_unit_scale(vertices, faces):
     half = -exponent // 2
     scaled = kept * math.ldexp(1.0, half)
     scaled *= math.ldexp(1.0, -exponent - half)
+    scaled[np.abs(scaled) < LEAST] = 0.0
     return scaled, exponent
 
 

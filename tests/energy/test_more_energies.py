@@ -21,6 +21,7 @@ from meshlab_willmore.mesh.build import build, faces_of
 from meshlab_willmore.mesh.halfedge import apex, can_flip, flip
 from meshlab_willmore.mesh.points import Point
 from tests import meshes, reference
+from tests.fuzz import energies
 
 ENERGIES = {
     "area": (area, reference.area),
@@ -228,13 +229,12 @@ def test_the_area_of_a_needle_has_all_its_digits(turned, thinness):
         base = np.round(2.0**50 * rng.uniform(-1.0, 1.0, 3)) / 2.0**50
         tip = np.round(2.0**50 * rng.uniform(1.0, 2.0, 3)) / 2.0**50
         points = np.array([base, base + thinness * rng.normal(size=3), tip])
-        sides = np.roll(points, -1, axis=0) - points
         exact = [[Fraction(x) for x in row] for row in points.tolist()]
         (ux, uy, uz), (vx, vy, vz) = (
             [p - q for p, q in zip(corner, exact[0], strict=True)] for corner in exact[1:]
         )
         squared = (uy * vz - uz * vy) ** 2 + (uz * vx - ux * vz) ** 2 + (ux * vy - uy * vx) ** 2
-        found = twice_area(*(Point(*side) for side in np.roll(sides, turned, axis=0).tolist()))
+        found = twice_area(*(Point(*corner) for corner in np.roll(points, turned, axis=0).tolist()))
         assert found == pytest.approx(math.sqrt(squared), rel=2e-15, abs=0.0)
 
 
@@ -404,3 +404,39 @@ def test_degenerate_faces_cost_what_the_total_says(name, arrays):
             assert gain == pytest.approx(before - module.total(mesh), abs=1e-12 * size)
             checked += 1
     assert checked > 100
+
+
+def needles(seed, height):
+    """A bumpy sphere with points so near to edges that the triangles there are nearly flat."""
+    vertices, faces = meshes.bumpy_sphere(24, seed)
+    rng = np.random.default_rng(seed)
+    for a, b, c in faces[rng.permutation(len(faces))[:3]]:
+        middle = vertices[b] + 0.4 * (vertices[c] - vertices[b])
+        vertices[a] = middle + height * rng.normal(size=3)
+    return vertices, faces
+
+
+@pytest.mark.parametrize("height", [1e-6, 1e-9, 1e-12])
+@pytest.mark.parametrize("name", ["area", "mean curvature", "delaunay"])
+def test_the_gain_at_needles_is_the_difference_of_the_exact_sums(name, height):
+    """Neither cut off nor made of rounding, where a face is thin, but not without area."""
+    module, _ = ENERGIES[name]
+    exact = energies.ENERGIES[name]
+    for seed in range(3):
+        vertices, faces = needles(seed, height)
+        mesh = build(vertices, faces)
+        before, _ = exact(vertices, faces)
+        for h in flippable(mesh):
+            after, _ = exact(vertices, reference.flipped(faces.tolist(), *ends(mesh, h)))
+            gain = module.cost_reduction(mesh, h)
+            slack = 1e-9 * float(max(before, after))
+            assert gain == pytest.approx(float(before - after), rel=1e-8, abs=slack)
+
+
+def test_what_is_neither_flat_nor_known_is_not_flipped():
+    """Its cotangents are finite, and larger than those of a face without area count."""
+    vertices = np.array([(0, 0, 0), (2, 0, 0), (1, 1e-20, 0), (1, -1, 0)], float)
+    mesh = build(vertices, np.array([(0, 1, 2), (1, 0, 3)], np.int32))
+    assert delaunay.cost_reduction(mesh, 0) == -math.inf
+    vertices[2, 1] = 0.0
+    assert delaunay.cost_reduction(mesh, 0) > 0.0

@@ -150,6 +150,17 @@ def test_unit_scale_is_a_power_of_two(scale):
     np.testing.assert_array_equal(np.ldexp(scaled, exponent), vertices)
 
 
+def test_what_is_too_small_beside_the_largest_counts_as_zero():
+    """Products of a few such lengths leave the range of floats, and angles would be of any size."""
+    vertices = np.vstack([VERTICES, 1e-120 * VERTICES])
+    faces = np.vstack([FACES, np.asarray(FACES) + len(VERTICES)])
+    scaled, exponent = validate.to_unit_scale(vertices, faces)
+    np.testing.assert_array_equal(np.ldexp(scaled[: len(VERTICES)], exponent), VERTICES)
+    assert (scaled[len(VERTICES) :] == 0.0).all()
+    alone, _ = validate.to_unit_scale(1e-120 * VERTICES, FACES)
+    assert np.abs(alone).max() >= 0.5
+
+
 def test_unit_scale_does_not_look_at_vertices_of_no_face():
     far = np.vstack([VERTICES, [[1e300, 0.0, 0.0]]])
     scaled, _ = validate.to_unit_scale(far, FACES)

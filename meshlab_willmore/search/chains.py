@@ -31,6 +31,8 @@ RING = 12
 # The part of the largest of several numbers that the rounding of their sum stays below.
 ROUNDING = 1e-13
 CORNERS = 6
+# Scored edges after which a start is given up: as many as six flips deep at the largest breadth.
+MOST_WORK = 10_000
 
 
 class Reach(NamedTuple):
@@ -355,7 +357,7 @@ def find_chain(task, start, ranking, judge):
             work += count
             _find_candidates(task, count, s, ranking)
             is_new = False
-        place = _next_candidate(task, s)
+        place = _next_candidate(task, s) if work < MOST_WORK else NONE
         if place != NONE:
             h, score = np.int64(chain.candidate[s, place]), chain.score[s, place]
             _add(task, h, s, score, score if judge is None else judge(mesh, h))

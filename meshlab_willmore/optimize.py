@@ -78,7 +78,11 @@ class FlipResult(NamedTuple):
         locks and guards nor, with "virtual willmore", the rule of the option `monotone` forbid.
         With True, that rule forbids flips that raise the Willmore energy; with False, flips to an
         edge that was flipped away before. So there may be flips left that would lower the energy.
-        The search "variable depth" says so of chains of flips.
+        The search "variable depth" says so of chains of flips. A second run from the result makes
+        no flip then, but: with `monotone` False; with random flips or several starts ("annealing",
+        "thorough"), which may find more; with creases by `featuredeg`, which are looked up anew;
+        and where flips that leave the Willmore energy as it is go round in circles, which is where
+        the search stops after ten rounds.
     reason : str
         Why it stopped.
     corners : (m, 3) int32
@@ -136,7 +140,7 @@ def optimize_flips(
     Parameters
     ----------
     vertices : (n, 3) array_like of float
-        Coordinates.
+        Coordinates. Those below 1e-45 of the largest one count as 0.
     faces : (m, 3) array_like of int
         Vertex indices of each face.
     energy : str
@@ -149,7 +153,8 @@ def optimize_flips(
         - "area": the area.
         - "mean curvature": dihedral angle times length, summed over the edges.
         - "gaussian curvature": the absolute value of 2 pi minus the angles, summed over vertices.
-        - "delaunay": the cotangents of all angles, which Delaunay triangulations minimise.
+        - "delaunay": the cotangents of all angles, which Delaunay triangulations minimise. Those of
+          a face without area count as 2**60.
     search : {"parallel greedy", "greedy", "variable depth", "annealing", "thorough"}
         How to minimise it. "greedy": always the flip of the largest cost reduction in the whole
         mesh, one by one. "parallel greedy": at the same time all flips that gain more than any
@@ -168,7 +173,8 @@ def optimize_flips(
         chosen.
     depth : int
         Most flips of a chain, 1 to 100; one more at the few places where the triangles are bad.
-        Only for "variable depth" and "thorough".
+        Only for "variable depth" and "thorough". The chains from one edge look at 10,000 edges
+        at most, which is all of them up to six flips at the largest `breadth`.
     breadth : int
         How many ways each chain of "variable depth" tries at its second flip, 1 to 12; half as
         many at the third, and so on. 1 is the quickest; more, with more depth, gets out of nearly
@@ -202,7 +208,10 @@ def optimize_flips(
     featuredeg : float
         Degrees in [0, 180]. Keep edges whose dihedral angle in the input is this or more, up to
         0.01 degrees either way: at 30, the sides of a cylinder with twelve of them stay. 0: keep
-        all but those between coplanar faces. 180: keep none.
+        all but those between coplanar faces. 180: keep none. The edges of a
+        sliver (shape below 1e-5) are not kept: its normal is made of the rounding of its
+        coordinates, so that they would be sharp or not by chance, and it could never be flipped
+        away.
     selected_faces : (m,) array_like of bool, optional
         Flip only edges between two selected faces.
     locked_edges : (e, 2) array_like of int, optional

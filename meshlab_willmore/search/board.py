@@ -50,6 +50,8 @@ class Board(NamedTuple):
         Corners of what was flipped, for an energy that looks round whole corners.
     gone, awaited : Pairs
         The edges that must not come back; those that stood in the way of a flip to them.
+    kept_away : (1,) bool
+        Whether a flip was refused for an edge that must not come back.
     new_edge : (n,) int64
         The round in which a flip is last to make an edge of which the vertex is the lower end, and
         in the low 32 bits the number of the peak.
@@ -76,6 +78,7 @@ class Board(NamedTuple):
     taken: np.ndarray
     gone: Pairs
     awaited: Pairs
+    kept_away: np.ndarray
     new_edge: np.ndarray
     space: Space
     waiting: Waiting
@@ -109,6 +112,7 @@ def board_of(mesh, rules, space):
         taken=np.zeros(len(mesh.vertices) if rules.is_wide else 0, np.bool_),
         gone=no_pairs(),
         awaited=no_pairs(),
+        kept_away=np.zeros(1, np.bool_),
         new_edge=np.zeros(len(mesh.vertices), np.int64),
         space=space,
         waiting=nothing_waits(len(space.order)),

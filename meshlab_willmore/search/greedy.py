@@ -26,7 +26,9 @@ most tau. A tie puts its edge into a set A, and no tie may bring back an edge of
 run never ended: A stops growing, and some triangulation comes back later. In between, each tie
 takes an edge of A out of the mesh, and only strict flips bring one back, so there are no more ties
 than strict flips. But then the energy has fallen by more than tau for each strict flip: a
-contradiction.
+contradiction. If an edge of A was refused at the end, A is forgotten and the search goes on, so
+that a second run would find nothing either: at most `MOST_PASSES` times, for ties that go round in
+circles.
 """
 
 from typing import NamedTuple
@@ -42,7 +44,17 @@ from ..mesh.status import report
 from . import rescoring
 from .heap import NEVER, Queue, empty_queue, first, update
 from .pairs import Pairs, insert, no_pairs, reserve
-from .rules import CONVERGED, STOPPED, WORKING, Progress, Rules, brings_back, is_blocked
+from .rules import (
+    CONVERGED,
+    MOST_PASSES,
+    STOPPED,
+    WORKING,
+    Progress,
+    Rules,
+    brings_back,
+    is_blocked,
+    is_final,
+)
 from .scoring import gain_of
 from .touched import visit_around, visit_fans, visit_freed
 from .waiting import Waiting, leave, nothing_waits
@@ -53,7 +65,10 @@ SCORES_PER_FLIP = 16
 
 
 class Task(NamedTuple):
-    """What a search works on; it changes all but the rules in place."""
+    """What a search works on; it changes all but the rules in place.
+
+    `kept_away` (1,) tells whether a flip was refused for an edge that must stay away.
+    """
 
     mesh: Mesh
     queue: Queue
@@ -61,6 +76,7 @@ class Task(NamedTuple):
     rules: Rules
     space: Space
     waiting: Waiting
+    kept_away: np.ndarray
 
 
 @inner
@@ -132,11 +148,9 @@ def advance(task, progress, cost_reduction):
             return scored, flips, gain, CONVERGED
         h = first(queue)
         keep_away = _must_stay_away(task, h)
-        if (
-            not makes_new_edge(mesh, h)
-            or (keep_away and brings_back(mesh, task.gone, h))
-            or is_blocked(task, h)
-        ):
+        is_back = keep_away and brings_back(mesh, task.gone, h)
+        task.kept_away[0] |= is_back
+        if is_back or not makes_new_edge(mesh, h) or is_blocked(task, h):
             update(queue, h, NEVER)
             work += SCORES_PER_FLIP
             continue
@@ -171,11 +185,16 @@ def run(kernel, mesh, rules, space=None):
         Its state is `CONVERGED` or `STOPPED`.
     """
     space = spaces.no_space() if space is None else space
-    waiting = nothing_waits(len(space.order))
-    task = Task(mesh, empty_queue(len(mesh.origin)), no_pairs(), rules, space, waiting)
+    waiting, queue = nothing_waits(len(space.order)), empty_queue(len(mesh.origin))
     progress = Progress(0, 0, 0.0, WORKING)
-    while progress.state == WORKING:
-        task = task._replace(gone=reserve(task.gone, SLICE // SCORES_PER_FLIP))
-        progress = Progress(*kernel(task, progress))
-        report(f"greedy, {progress.flips} flips, {task.queue.size[0]} edges left")
+    for _ in range(MOST_PASSES):
+        flips, kept_away = progress.flips, np.zeros(1, np.bool_)
+        task = Task(mesh, queue, no_pairs(), rules, space, waiting, kept_away)
+        progress = progress._replace(scored=0, state=WORKING)
+        while progress.state == WORKING:
+            task = task._replace(gone=reserve(task.gone, SLICE // SCORES_PER_FLIP))
+            progress = Progress(*kernel(task, progress))
+            report(f"greedy, {progress.flips} flips, {queue.size[0]} edges left")
+        if is_final(rules, progress, flips, kept_away):
+            break
     return progress

@@ -27,7 +27,6 @@ is contested. The order of the peaks does not depend on how the work was shared.
 the same, bit for bit, for any number of threads.
 """
 
-import itertools
 from typing import NamedTuple
 
 import numpy as np
@@ -42,7 +41,16 @@ from . import lists, peaks
 from .board import board_of, forbid
 from .pairs import insert, reserve
 from .peaks import FOLDS, IS_BLOCKED, IS_JOINED, Look
-from .rules import CONVERGED, STOPPED, WORKING, Progress, brings_back, must_wait
+from .rules import (
+    CONVERGED,
+    MOST_PASSES,
+    STOPPED,
+    WORKING,
+    Progress,
+    brings_back,
+    is_final,
+    must_wait,
+)
 
 NO_VERDICT = np.empty(0, np.int8)
 # Edges around one that changed, about.
@@ -79,6 +87,7 @@ def _is_refused(board, h, verdict, is_contested, number):
         must_wait(board, h, blocker(mesh, board.space, h, EVER))
         return True
     if board.is_tie[at(h)] and brings_back(mesh, board.gone, h):
+        board.kept_away[0] = True
         return True
     face = blocker(mesh, board.space, h, number) if is_contested else NONE
     return must_wait(board, h, face)
@@ -196,26 +205,35 @@ def run(kernel, mesh, rules, space=None, threads=None):
         Its state is `CONVERGED` or `STOPPED`.
     """
     space = spaces.without(spaces.no_space() if space is None else space)
-    board = board_of(mesh, rules, space)
     progress = Progress(len(mesh.origin), 0, 0.0, WORKING)
-    touched, refused, candidates = len(board.touched), 0, 0
     with crew(threads) as share:
-        for number in itertools.count(1):
-            share(kernel, board, touched)
-            candidates = lists.in_slices(lists.add_candidates, board, touched, candidates)
-            edges, candidates = _possible_peaks(board, touched, refused, candidates)
-            if not len(edges):
-                progress = progress._replace(state=CONVERGED)
+        for _ in range(MOST_PASSES):
+            flips, board = progress.flips, board_of(mesh, rules, space)
+            progress = _make_rounds(kernel, board, progress, share)
+            if is_final(rules, progress, flips, board.kept_away):
                 break
-            look = Look(board, edges, np.empty(len(edges), np.int8))
-            share(peaks.find_peaks, look, len(edges))
-            chosen, first = peaks.in_order(look, number, progress.flips, share)
-            board, done = _flip_all(board, chosen, first, rules.maxflips - progress.flips, number)
-            flips, gain = progress.flips + done.flipped, progress.gain + done.gain
-            progress = Progress(progress.scored, flips, gain, done.state)
-            report(f"round {number}, {flips} flips, {len(edges)} edges left")
-            if done.state == STOPPED:
-                break
-            refused = done.refused
-            touched = lists.touch_all(board, done.flipped, share)
     return progress
+
+
+def _make_rounds(kernel, board, progress, share):
+    """Make rounds of flips until no allowed flip helps, or the limit is reached."""
+    touched, refused, candidates, number = len(board.touched), 0, 0, 0
+    while True:
+        number += 1
+        share(kernel, board, touched)
+        candidates = lists.in_slices(lists.add_candidates, board, touched, candidates)
+        edges, candidates = _possible_peaks(board, touched, refused, candidates)
+        if not len(edges):
+            return progress._replace(state=CONVERGED)
+        look = Look(board, edges, np.empty(len(edges), np.int8))
+        share(peaks.find_peaks, look, len(edges))
+        chosen, first = peaks.in_order(look, number, progress.flips, share)
+        left = board.rules.maxflips - progress.flips
+        board, done = _flip_all(board, chosen, first, left, number)
+        flips, gain = progress.flips + done.flipped, progress.gain + done.gain
+        progress = Progress(progress.scored, flips, gain, done.state)
+        report(f"round {number}, {flips} flips, {len(edges)} edges left")
+        if done.state == STOPPED:
+            return progress
+        refused = done.refused
+        touched = lists.touch_all(board, done.flipped, share)

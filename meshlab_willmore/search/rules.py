@@ -11,6 +11,8 @@ from .waiting import wait
 
 WORKING, CONVERGED, STOPPED = range(3)
 NO_LIMIT = 2**62
+# Ties that go round in circles are made this often.
+MOST_PASSES = 10
 
 
 class Rules(NamedTuple):
@@ -55,6 +57,24 @@ class Progress(NamedTuple):
     flips: int
     gain: float
     state: int
+
+
+def is_final(rules, progress, flips, kept_away):
+    """Tell whether a greedy search is through, or has to go on with no edge kept away any more.
+
+    Parameters
+    ----------
+    rules : Rules
+        Without the monotone rule no edge ever comes back.
+    progress : Progress
+        At the end of a pass.
+    flips : int
+        How many there were before that pass.
+    kept_away : (1,) bool
+        Whether a flip was refused in that pass for an edge that must stay away.
+    """
+    is_stuck = progress.state == STOPPED or progress.flips == flips
+    return is_stuck or not (rules.monotone and kept_away[0])
 
 
 @inner

@@ -9,6 +9,7 @@
         keep the best prefix if it lowers the energy, and put the edges around it into the queue
         undo the rest
     repeat with the edges that could have seen a change, until no chain helps
+    descend greedily again, as flips that lower another energy than chains may be left; go on there
     where another energy still would flip edges, go one flip deeper; repeat if that helped
 
 It is the scheme of S. Lin and B. W. Kernighan ("An effective heuristic algorithm for the
@@ -176,9 +177,35 @@ def run(kernel, descent, mesh, rules, reach, space=None, threads=None):
             return _search(kernel, part, rules, reach, spaces.no_space(), begin, None, halted)
 
         found, touched = regions.run(search, mesh, threads)
-        flips, gain = progress.flips + found.flips, progress.gain + found.gain
-        progress = progress._replace(flips=flips, gain=gain)
-    return _search(kernel, mesh, rules, reach, space, progress, touched, [])
+        progress = _sum(progress, found)
+    progress = _search(kernel, mesh, rules, reach, space, progress, touched, [])
+    # For a potential, a flip that is left would have been a chain.
+    while progress.state == CONVERGED and rules.monotone:
+        before, flips = mesh.origin.copy(), progress.flips
+        left = rules._replace(maxflips=rules.maxflips - flips)
+        progress = _sum(progress, greedy.run(descent, mesh, left, space))
+        if progress.state == STOPPED or progress.flips == flips:
+            break
+        flips = progress.flips
+        # With the guard, what these flips have freed may be anywhere.
+        touched = None if space.active else _moved_vertices(before, mesh)
+        progress = _search(kernel, mesh, rules, reach, space, progress, touched, [])
+        if progress.flips == flips:
+            break
+    return progress
+
+
+def _sum(one, other):
+    """Return the progress of a search that another one has gone on with."""
+    return other._replace(flips=one.flips + other.flips, gain=one.gain + other.gain)
+
+
+def _moved_vertices(before, mesh):
+    """Return the mask of the vertices of faces of which the origins were others `before`."""
+    moved = np.repeat((before != mesh.origin).reshape(-1, 3).any(axis=1), 3)
+    touched = np.zeros(len(mesh.vertices), np.bool_)
+    touched[before[moved]] = touched[mesh.origin[moved]] = True
+    return touched
 
 
 def _search(kernel, mesh, rules, reach, space, progress, touched, halted):

@@ -180,8 +180,8 @@ _PARAMETERS = (
         float,
         180.0,
         "Feature angle (deg)",
-        "Keep edges whose faces are bent by this angle or more (0 is flat); 180 keeps none. "
-        "30 suits technical parts.",
+        "Keep edges whose faces are bent by this angle or more (0 is flat), but not those of "
+        "slivers, which have no normal to speak of; 180 keeps none. 30 suits technical parts.",
         check=check_degrees,
     ),
     Parameter(

@@ -47,7 +47,7 @@ def sphere_hull(count, seed=0):
     """The convex hull of random points on the unit sphere, outward normals."""
     vertices = np.random.default_rng(seed).normal(size=(count, 3))
     vertices /= np.linalg.norm(vertices, axis=1)[:, None]
-    return vertices, _outward(vertices, ConvexHull(vertices).simplices)
+    return vertices, outward(vertices, ConvexHull(vertices).simplices)
 
 
 def bumpy_sphere(count, seed=0, bump=0.3):
@@ -109,7 +109,7 @@ def octahedron():
     vertices = np.array(
         [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)], float
     )
-    return vertices, _outward(vertices, ConvexHull(vertices).simplices)
+    return vertices, outward(vertices, ConvexHull(vertices).simplices)
 
 
 def two_triangles():
@@ -167,7 +167,7 @@ def bow_tie():
     return np.vstack([vertices, others]), np.vstack([faces, second]).astype(np.int32)
 
 
-def _outward(vertices, simplices):
+def outward(vertices, simplices):
     a, b, c = vertices[simplices].transpose(1, 0, 2)
     inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), a + b + c) < 0.0
     faces = simplices.copy()

@@ -557,7 +557,7 @@ ODD = {
 @pytest.mark.parametrize("name", ODD)
 @pytest.mark.parametrize("monotone", [True, False])
 @pytest.mark.parametrize("energy", ENERGIES)
-@pytest.mark.parametrize("search", ["greedy", pytest.param("variable depth", marks=HEAVY)])
+@pytest.mark.parametrize("search", ["parallel greedy", "greedy", HEAVY_DEPTH])
 def test_odd_meshes_get_a_right_result(search, energy, monotone, name):
     vertices, faces = ODD[name]
     for foldangle in (90.0, 180.0):

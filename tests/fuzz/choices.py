@@ -1,0 +1,42 @@
+"""Random valid options of `optimize_flips`."""
+
+import numpy as np
+
+from meshlab_willmore.optimize import KERNELS, SEARCHES
+from tests import reference
+
+
+def _angle(rng, usual):
+    return float(rng.choice([usual, usual, 0.0, 30.0, 90.0, 180.0, rng.uniform(0.0, 180.0)]))
+
+
+def random_options(rng, faces):
+    """Options by name."""
+    search = str(rng.choice(SEARCHES, p=[0.4, 0.15, 0.2, 0.1, 0.15]))
+    options = {
+        "energy": str(rng.choice(list(KERNELS))),
+        "search": search,
+        "checkintersections": bool(rng.random() < 0.5),
+        "foldangle": _angle(rng, 90.0),
+    }
+    if rng.random() < 0.3:
+        options["featuredeg"] = _angle(rng, 30.0)
+    if rng.random() < 0.2:
+        options["selected_faces"] = rng.random(len(faces)) < 0.8
+    edges = sorted(reference.edge_set(faces)) if len(faces) else []
+    if edges and rng.random() < 0.2:
+        some = np.array(edges)[rng.random(len(edges)) < 0.2]
+        options["locked_edges"] = np.where(rng.random((len(some), 1)) < 0.5, some, some[:, ::-1])
+    if rng.random() < 0.15:
+        options["maxflips"] = int(rng.integers(0, 12))
+    if options["energy"] == "virtual willmore":
+        options["monotone"] = bool(rng.random() < 0.7)
+        place = float(rng.uniform(0.01, 0.99))
+        options["virtualpoint"] = ("midpoint", "midpoint", "closest", place)[rng.integers(4)]
+    if search in ("variable depth", "thorough"):
+        options["depth"] = int(rng.integers(1, 7))
+        options["breadth"] = int(rng.choice([1, 2, 3, 3, 12]))
+    if search == "annealing":
+        options["sweeps"] = int(rng.integers(1, 12))
+        options["seed"] = int(rng.integers(2**31))
+    return options

@@ -30,8 +30,9 @@ class Job(NamedTuple):
 
     @property
     def files(self) -> tuple[Path, ...]:
-        """All that is read or written."""
-        return (*self.inputs, *self.outputs)
+        """All that is read or written, as far as its name is known."""
+        materials = (path.with_name(f"{path.name}.mtl") for path in self.outputs)
+        return (*self.inputs, *self.outputs, *materials)
 
     @property
     def name(self) -> str:

@@ -80,13 +80,30 @@ class RunCommand(SeveralValues):
         return super().parse_args(ctx, words)
 
 
+def _only_once(_: click.Context, option: click.Parameter, values: Sequence[str]) -> str | None:
+    """The value of an option that meshlabserver took several times, and of which one would win."""
+    if len(values) > 1:
+        raise wrong_use(
+            f"--{option.opts[-1].lstrip('-')} is given {len(values)} times; give it once"
+        )
+    return values[0] if values else None
+
+
 def _placeholders() -> str:
     return ", ".join(f"{{{name}}} ({what})" for name, what in outputs.PLACEHOLDERS.items())
 
 
 @click.command("run", cls=RunCommand, short_help="Run a filter script.", epilog=EXAMPLES)
 @click.argument("script", required=False, metavar="SCRIPT.mlx")
-@click.option("-s", "--script", "also", metavar="FILE", help="The script, as meshlabserver had it.")
+@click.option(
+    "-s",
+    "--script",
+    "also",
+    multiple=True,
+    callback=_only_once,
+    metavar="FILE",
+    help="The script, as meshlabserver had it.",
+)
 @click.option(
     "-i",
     "--input",
@@ -114,6 +131,8 @@ def _placeholders() -> str:
 )
 @click.option(
     "--log",
+    multiple=True,
+    callback=_only_once,
     metavar="FILE",
     help="Add what each step did to this file; - for the terminal. -l before every -o is the same.",
 )

@@ -43,6 +43,7 @@ def contents():
             "folder/../out.ply",
             "--log folder/../out.ply: the log would be written into out.ply; give",
         ),
+        ("out.ply.mtl", "--log out.ply.mtl: the log would be written into out.ply.mtl; give it a"),
         ("mine.txt", "--log mine.txt: this file is no log of a run; give the log a new name"),
         ("other.ply", "--log other.ply: this file is no log of a run; give the log a new name"),
         ("folder", "--log folder is a folder; name a file in it, such as 'folder/log.txt'"),

@@ -208,6 +208,8 @@ def no_step(monkeypatch):
     [
         (["-i", "cube.ply"], "there is no script; name one, such as: run clean.mlx"),
         (["script.mlx", "-s", "script.mlx"], "name the script once"),
+        (["-s", "a.mlx", "-s", "b.mlx"], "--script is given 2 times; give it once"),
+        (["script.mlx", "--log", "a", "-l", "b.txt"], "--log is given 2 times; give it once"),
         (["scrpt.mlx"], "there is no filter script scrpt.mlx"),
         (["script.mlx", "-i", "cub.ply"], "there is no file cub.ply; there is cube.ply"),
         (["script.mlx", "-i", "no/a.ply"], "there is no file no/a.ply: there is no folder no"),

@@ -1,64 +1,60 @@
-"""Rows of text in columns, and numbers of things."""
+"""Rows of text in columns, what fits into some, and numbers of things."""
 
 from __future__ import annotations
 
+import os
 import shutil
 import unicodedata
 from collections.abc import Sequence
+from typing import Any
 
 GAP = "  "
-# Where there is no window.
-WIDTH = 80
-_ELLIPSIS = "..."
-# Less of a name is no help.
-_SHORTEST = 12
+_DOTS = "..."
+# In a window that is too narrow for that, lines wrap.
+_LEAST_OF_NAME = 12
 
 
 def in_columns(rows: Sequence[Sequence[str]], left: int = 1) -> str:
     """Lay rows out under each other; the first `left` columns begin, the others end together."""
-    shown = [[printable(cell) for cell in row] for row in rows]
-    widths = [max(map(width, column)) for column in zip(*shown, strict=True)]
+    widths = [max(map(width, column)) for column in zip(*rows, strict=True)]
     lines = []
-    for row in shown:
+    for row in rows:
         cells = [
-            _padded(cell, wide, place < left)
-            for place, (cell, wide) in enumerate(zip(row, widths, strict=True))
+            cell + blanks if place < left else blanks + cell
+            for place, cell in enumerate(row)
+            for blanks in [" " * (widths[place] - width(cell))]
         ]
         lines.append(GAP.join(cells).rstrip())
     return "\n".join(lines)
 
 
-def _padded(cell: str, wide: int, begins: bool) -> str:
-    blanks = " " * (wide - width(cell))
-    return cell + blanks if begins else blanks + cell
-
-
 def fitted(rows: Sequence[Sequence[str]]) -> list[tuple[str, ...]]:
-    """The rows with first cells so short that the columns fit into the window."""
-    window = shutil.get_terminal_size((WIDTH, 24)).columns
+    """The rows with so much of the ends of their first cells that the columns fit into the window.
+
+    In a pipe the window is taken for 80 columns wide.
+    """
+    window = shutil.get_terminal_size().columns
     others = [max(map(width, column)) for column in list(zip(*rows, strict=True))[1:]]
-    room = max(window - sum(others) - len(GAP) * len(others), _SHORTEST)
-    return [(shortened(printable(first), room), *rest) for first, *rest in rows]
+    room = max(window - sum(others) - len(GAP) * len(others), _LEAST_OF_NAME)
+    return [(end_of(printable(name), room), *rest) for name, *rest in rows]
 
 
-def shortened(name: str, room: int) -> str:
-    """A name with its beginning and, above all, its end, in so much room."""
-    if width(name) <= room:
-        return name
-    begin = (room - len(_ELLIPSIS)) // 3
-    end = room - len(_ELLIPSIS) - begin
-    return _cut(name, begin) + _ELLIPSIS + _cut(name[::-1], end)[::-1]
+def counted(number: int, thing: str) -> str:
+    """One step, two steps."""
+    return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
 
 
-def _cut(text: str, room: int) -> str:
-    while width(text) > room:
-        text = text[:-1]
-    return text
+def columns_of(stream: Any) -> int:
+    """How many columns the terminal of a stream has; 0 if it is none."""
+    try:
+        return os.get_terminal_size(stream.fileno()).columns if stream.isatty() else 0
+    except (OSError, ValueError):
+        return 0
 
 
 def width(text: str) -> int:
-    """How many columns of a window a text takes."""
-    return sum(_width_of(letter) for letter in text)
+    """How many columns a text takes on a terminal."""
+    return sum(map(_width_of, text))
 
 
 def _width_of(letter: str) -> int:
@@ -68,12 +64,26 @@ def _width_of(letter: str) -> int:
 
 
 def printable(text: str) -> str:
-    """The text with what is no letter, a line break say, as an escape."""
-    if text.isprintable():
+    """The text without letters that move the cursor."""
+    return "".join(letter if letter.isprintable() else "?" for letter in text)
+
+
+def beginning_of(text: str, columns: int) -> str:
+    """The text, or its beginning and dots, in at most so many columns."""
+    if width(text) <= columns:
         return text
-    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+    if columns < len(_DOTS):
+        return _DOTS[: max(columns, 0)]
+    room = columns - len(_DOTS)
+    kept = ""
+    for letter in text:
+        room -= _width_of(letter)
+        if room < 0:
+            break
+        kept += letter
+    return f"{kept}{_DOTS}"
 
 
-def counted(number: int, thing: str) -> str:
-    """One step, two steps."""
-    return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
+def end_of(text: str, columns: int) -> str:
+    """The text, or dots and its end, in at most so many columns: in a path that tells most."""
+    return beginning_of(text[::-1], columns)[::-1]

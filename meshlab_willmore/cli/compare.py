@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
+from .. import quick_start
 from . import progress, references, trials
 from .columns import in_columns
 from .errors import debug_option, wrong_use
@@ -151,6 +152,8 @@ def command(
     if reference is not None:
         references.check(reference)
     rows = _contenders(given, peers)
+    # Each row would fail at variables that are wrong, and could not say why.
+    quick_start.import_numba()
     task = trials.Task(str(path), reference, timeout)
     outcomes = _outcomes(task, rows)
     if as_json:
@@ -206,8 +209,10 @@ def _tell(task: trials.Task, rows: Sequence[Contender], outcomes: Sequence[trial
         if outcome.error and not initial.error:
             click.echo(f"Error: {contender.name}: {outcome.error}", err=True)
     if initial.error:
-        named = task.source in initial.error or (task.reference or task.source) in initial.error
-        raise click.ClickException(initial.error if named else f"{task.source}: {initial.error}")
+        names = (task.source, task.reference or task.source)
+        if initial.of_machine or any(name in initial.error for name in names):
+            raise click.ClickException(initial.error)
+        raise click.ClickException(f"{task.source}: {initial.error}")
 
 
 def _for_json(contender: Contender, outcome: trials.Outcome) -> dict[str, Any]:

@@ -43,7 +43,7 @@ def command(as_json: bool) -> None:
     if as_json:
         click.echo(json.dumps({"fit": not wrong, "findings": [f._asdict() for f in findings]}))
     else:
-        click.echo(f"{wrong} of {len(findings)} not fit" if wrong else "This machine is fit.")
+        click.echo(f"{wrong} of {len(findings)} checks failed" if wrong else "This machine is fit.")
     if wrong:
         click.get_current_context().exit(1)
 

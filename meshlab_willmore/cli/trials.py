@@ -12,7 +12,6 @@ import os
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 import traceback
@@ -21,6 +20,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, NamedTuple
 
+from .. import machine
 from . import inputs, references
 from .errors import reason
 
@@ -66,6 +66,8 @@ class Outcome(NamedTuple):
         Those of `meshlab_willmore.compare.figures.Figures`; None if there is no mesh.
     error : str or None
         What went wrong, in a line. A filter that is too slow is no error.
+    of_machine : bool
+        Whether that is a fault of the machine, not of the mesh or the filter.
     timed_out : bool
         Whether the filter took longer than it may, and was killed.
     trace : str
@@ -75,6 +77,7 @@ class Outcome(NamedTuple):
     seconds: float | None = None
     figures: dict[str, Any] | None = None
     error: str | None = None
+    of_machine: bool = False
     timed_out: bool = False
     trace: str = ""
 
@@ -128,9 +131,8 @@ class _Stopwatch:
 def _process() -> Iterator[subprocess.Popen[str]]:
     """A process for one row, with a folder for temporary files; both are gone in the end."""
     program = _PROGRAM.format(path=sys.path, module=__name__)
-    with tempfile.TemporaryDirectory(
-        prefix="meshlab_willmore_", ignore_cleanup_errors=True
-    ) as folder:
+    with machine.temporary_folder() as place:
+        folder = str(place)
         process = subprocess.Popen(
             [sys.executable, "-c", program],
             stdin=subprocess.PIPE,
@@ -183,7 +185,12 @@ def main() -> None:
     try:
         outcome = _outcome(job, say)
     except Exception as error:
-        outcome = Outcome(error=reason(error), trace=traceback.format_exc())
+        fault = machine.fault_of(error)
+        outcome = Outcome(
+            error=reason(fault or error),
+            of_machine=fault is not None,
+            trace=traceback.format_exc(),
+        )
     say(outcome._asdict())
 
 

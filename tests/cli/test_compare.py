@@ -9,6 +9,7 @@ import pytest
 import meshlab_willmore
 from meshlab_willmore.cli import compare, trials
 from meshlab_willmore.cli import flip as flip_module
+from meshlab_willmore.cli.progress import Status
 from meshlab_willmore.compare import contenders
 from meshlab_willmore.compare.figures import Figures
 from meshlab_willmore.compare.reference import Sphere, deviation
@@ -200,15 +201,12 @@ def test_debug_shows_the_traceback_of_a_row(cube, rows):
     assert "Traceback of bad luck\n\nError: " in call(*arguments, "--debug").stderr
 
 
-def test_a_bar_tells_what_a_row_does():
-    class Bar:
-        def render_progress(self):
-            self.rendered = self.current_item
-
-    bar = Bar()
-    compare._show(bar, "greedy, area", trials.RUNNING)
-    assert bar.rendered == "greedy, area: running"
-    compare._show(None, "greedy, area", trials.RUNNING)
+def test_what_a_row_does_is_told():
+    status = Status("cube.ply", 2, lambda: 0.0)
+    status.next("initial: reading")
+    status.next("greedy, area: reading")
+    compare._show(status, "greedy, area", trials.RUNNING)
+    assert status.line(80) == "cube.ply  [########--------]  50%  greedy, area: running, 0 s"
 
 
 def test_a_mesh_that_cannot_be_measured_ends_it(cube, rows):

@@ -44,7 +44,8 @@ def test_a_problem_has_its_cure(monkeypatch):
     result = call("doctor")
     assert (result.exit_code, result.stdout) == (
         1,
-        "ok   one: is fine\nBAD  two: is gone\n     mend it: apt-get install two\n1 of 2 not fit\n",
+        "ok   one: is fine\nBAD  two: is gone\n     mend it: apt-get install two\n"
+        "1 of 2 checks failed\n",
     )
     result = call("doctor", "--json")
     assert result.exit_code == 1

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from meshlab_willmore.cli import trials
 from meshlab_willmore.machine import MachineWarning, RoomError, SettingError
 from meshlab_willmore.meshset import flips
 from meshlab_willmore.meshset.play import play as play_steps
@@ -56,6 +57,13 @@ def test_measure_blames_no_mesh(monkeypatch):
     monkeypatch.setattr("meshlab_willmore.cli.measure.loaded", fail)
     result = call("measure", cube_file())
     assert (result.exit_code, result.stderr) == (1, f"Error: {FULL} (cube.ply is left out)\n")
+
+
+def test_compare_blames_no_mesh(monkeypatch):
+    outcome = trials.Outcome(error=str(FULL), of_machine=True)
+    monkeypatch.setattr(trials, "run", lambda *_: outcome)
+    result = call("compare", cube_file())
+    assert (result.exit_code, result.stdout, result.stderr) == (1, "", f"Error: {FULL}\n")
 
 
 def test_what_makes_work_slow_is_a_note(monkeypatch):

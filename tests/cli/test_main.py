@@ -185,9 +185,10 @@ def test_whole_demo_in_a_process_of_its_own(tmp_path):
     assert {path.suffix for path in files} == {".ply", ".png"}
     assert all(path.stat().st_size > 0 for path in files)
     # Progress has a line for each stage, and nothing else is said: no warning of any library.
-    assert {line.partition(":")[0] for line in done.stderr.splitlines()} == {
-        "compiling (the first run only)", "cube", "torus", "scan", "face", "picture",
-    }  # fmt: skip
+    # Something may be compiled, or not.
+    stages = {line.partition(":")[0] for line in done.stderr.splitlines()}
+    stages.discard("compiling (the first run only)")
+    assert stages == {"cube", "torus", "scan", "face", "picture"}
 
 
 def test_output_is_a_folder_here_by_default(monkeypatch, tmp_path):

@@ -30,7 +30,7 @@ class Case:
         rng = np.random.default_rng([seed, number])
         self.name = f"python -m tests.fuzz --seed {seed} --case {number}"
         self.vertices, self.faces, self.made_by = random_mesh(rng)
-        self.options = random_options(rng, self.faces)
+        self.options = random_options(rng, self.vertices, self.faces)
         self.parts = int(rng.choice([2, 4, 10**6]))
 
     def check(self):
@@ -53,6 +53,7 @@ class Case:
         if is_sure:
             promise.check_corners(faces, result.faces, result.corners, locked)
         self._check_numbers(result)
+        self._check_mappings(result)
         self._check_energy(result)
         self._check_cuts(result)
         self._check_repeated(vertices, faces, result)
@@ -78,6 +79,8 @@ class Case:
         if "selected_faces" in self.options:
             left_out = self.faces[~self.options["selected_faces"]]
             locked |= promise.edges(promise.half_edges(left_out))
+        if "wedge_uv" in self.options:
+            locked |= promise.seams(self.faces, self.options["wedge_uv"])
         limit = self.options.get("featuredeg", 180.0)
         if limit < 180.0 and len(self.faces):
             ends, angles, shapes = self._edges()
@@ -117,6 +120,14 @@ class Case:
         if "selected_faces" in self.options:
             left_out = ~self.options["selected_faces"]
             np.testing.assert_array_equal(result.faces[left_out], self.faces[left_out])
+
+    def _check_mappings(self, result):
+        """No texture triangle is turned over or made flat."""
+        uv = self.options.get("wedge_uv", np.empty((len(self.faces), 3, 0)))
+        for column in range(0, uv.shape[2], 2):
+            mapping = uv[:, :, column : column + 2]
+            moved = mapping.reshape(-1, 2)[result.corners]
+            promise.check_mapping(mapping, moved)
 
     def _check_energy(self, result):
         """The energy falls by what the result says, up to what rounding may do."""
@@ -167,6 +178,9 @@ class Case:
         options.pop("featuredeg", None)
         options["locked_edges"] = np.array(sorted(locked), int).reshape(-1, 2)
         options.pop("maxflips", None)
+        if "wedge_uv" in options:
+            uv = options["wedge_uv"]
+            options["wedge_uv"] = uv.reshape(-1, uv.shape[2])[result.corners]
         search = options["search"]
         options["search"] = AGAIN.get(search, search)
         again = self._run(vertices, result.faces, options)

@@ -10,7 +10,7 @@ def _angle(rng, usual):
     return float(rng.choice([usual, usual, 0.0, 30.0, 90.0, 180.0, rng.uniform(0.0, 180.0)]))
 
 
-def random_options(rng, faces):
+def random_options(rng, vertices, faces):
     """Options by name."""
     search = str(rng.choice(SEARCHES, p=[0.4, 0.15, 0.2, 0.1, 0.15]))
     options = {
@@ -39,4 +39,29 @@ def random_options(rng, faces):
     if search == "annealing":
         options["sweeps"] = int(rng.integers(1, 12))
         options["seed"] = int(rng.integers(2**31))
+    if rng.random() < 0.25:
+        mappings = [_mapping(rng, vertices, faces) for _ in range(rng.integers(1, 3))]
+        options["wedge_uv"] = np.concatenate(mappings, axis=2)
     return options
+
+
+def _mapping(rng, vertices, faces):
+    """Texture coordinates of corners, (m, 3, 2): plain, mirrored, folded, in charts, with holes."""
+    unit = vertices / (np.abs(vertices).max(initial=0.0) or 1.0)
+    uv = (
+        unit[:, :2],
+        unit[:, :2] * (-1.0, 1.0),
+        unit[:, :2] + rng.normal(0.0, 0.1, (len(unit), 2)),
+        np.round(8.0 * unit[:, :2]) / 10.0,
+        unit @ rng.normal(size=(3, 2)),
+        rng.integers(0, 4, (len(unit), 2)).astype(float),
+    )[rng.integers(6)]
+    wedges = uv[faces].reshape(-1, 3, 2)
+    if rng.random() < 0.4:
+        chart = unit[faces].reshape(-1, 3, 3).mean(axis=1) @ rng.normal(size=3) > 0.0
+        wedges[chart] = wedges[chart] * rng.choice([-1.0, 1.0], 2) + rng.choice([0.0, 3.0])
+    if rng.random() < 0.2:
+        wedges[rng.random(len(faces)) < 0.3] = 0.0
+    if rng.random() < 0.1:
+        wedges[rng.random((len(faces), 3)) < 0.02] = rng.choice([np.nan, np.inf])
+    return wedges * rng.choice([1.0, 1.0, 1.0, 2.0**-490, 2.0**480, 1e-20])

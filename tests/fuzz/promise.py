@@ -1,6 +1,7 @@
 """What a result of flips must be, whatever the mesh, the search and the options."""
 
 from collections import Counter, defaultdict
+from fractions import Fraction
 
 import numpy as np
 
@@ -75,6 +76,40 @@ def check_kept(after, kept):
     """All edges of a set are there."""
     missing = kept - edges(half_edges(after))
     assert not missing, f"edges that had to stay are gone: {sorted(missing)}"
+
+
+def seams(faces, uv):
+    """Edges whose faces have other texture coordinates at one end, and those of faces without."""
+    found, sides = set(), {}
+    for face, wedges in zip(faces.tolist(), uv.tolist(), strict=True):
+        for c in range(3):
+            ends = {face[c]: tuple(wedges[c]), face[c - 2]: tuple(wedges[c - 2])}
+            edge = tuple(sorted(ends))
+            there = tuple(ends[v] for v in edge)
+            if sides.setdefault(edge, there) != there or not np.isfinite(wedges).all():
+                found.add(edge)
+    return found
+
+
+def _signs(mapping):
+    """How many texture triangles of each orientation there are, exactly."""
+    found = Counter()
+    for triangle in mapping.tolist():
+        if not np.isfinite(triangle).all():
+            found["nowhere"] += 1
+            continue
+        (a, b), (c, d), (e, f) = ([Fraction(x) for x in point] for point in triangle)
+        area = (c - a) * (f - b) - (d - b) * (e - a)
+        found[(area > 0) - (area < 0)] += 1
+    return found
+
+
+def check_mapping(before, after):
+    """No texture triangle is turned over or made flat that was not so before."""
+    old, new = _signs(before), _signs(after)
+    assert new["nowhere"] == old["nowhere"]
+    assert new[1] >= old[1], f"{old[1] - new[1]} texture triangles of positive area are gone"
+    assert new[-1] >= old[-1], f"{old[-1] - new[-1]} texture triangles of negative area are gone"
 
 
 def _sectors(faces, barred):

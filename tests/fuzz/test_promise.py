@@ -78,6 +78,19 @@ def test_corners_of_the_other_side_of_a_locked_edge():
         promise.check_corners(faces, faces, wrong, middle)
 
 
+def test_a_texture_triangle_that_is_turned_over():
+    mapping = VERTICES[FACES][:, :, :2] + 0.1 * VERTICES[FACES][:, :, 2:]
+    promise.check_mapping(mapping, mapping[::-1])
+    turned = mapping.copy()
+    turned[2] = turned[2, ::-1]
+    with pytest.raises(AssertionError, match="1 texture triangles of"):
+        promise.check_mapping(mapping, turned)
+    assert promise.seams(FACES, mapping) == set()
+    mapping[0, 0] += 1.0
+    a, b, c = FACES[0].tolist()
+    assert promise.seams(FACES, mapping) == {tuple(sorted((a, b))), tuple(sorted((c, a)))}
+
+
 @pytest.mark.parametrize(
     ("energy", "other"),
     [

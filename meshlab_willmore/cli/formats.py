@@ -22,6 +22,17 @@ _ASTRAY = frozenset({"u3d", "idtf"})
 # PyMeshLab does not load these; some of the writers crash for meshes as small as ours.
 _WRITTEN_ONLY = frozenset({"dxf", "json", "nxs", "nxz"})
 
+_MAPPED = """v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+f 1/1 2/2 3/3
+f 1/1 3/3 4/4
+"""
 # A PNG of one pixel.
 _IMAGE = bytes.fromhex(
     "89504e470d0a1a0a0000000d49484452000000010000000108000000003a7e9b550000000a49"
@@ -72,14 +83,17 @@ class Part(NamedTuple):
         Arguments of `pymeshlab.Mesh` that make a square of two triangles have it.
     is_there : callable
         Whether a mesh has it.
+    is_mapped : bool
+        Whether the mesh is to have texture coordinates.
     has_image : bool
-        Whether the mesh is to have a texture as well: some writers go by that.
+        Whether it is to have a texture as well: some writers go by that.
     """
 
     name: str
     keyword: str
     given: Callable[[], dict[str, Any]]
     is_there: Callable[[pymeshlab.Mesh], bool]
+    is_mapped: bool = False
     has_image: bool = False
 
 
@@ -101,18 +115,26 @@ def _round_trip(ending: str, part: Part) -> bool:
     corners = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
     square = {"vertex_matrix": corners, "face_matrix": np.array([[0, 1, 2], [0, 2, 3]])}
     helper = pymeshlab.MeshSet()
-    native.add(helper, pymeshlab.Mesh(**{**square, **part.given()}))
     with tempfile.TemporaryDirectory(prefix="meshlab_willmore_") as folder:
         file = Path(folder) / f"square.{ending}"
         try:
             with native.muted():
-                if part.has_image:
-                    image = Path(folder) / "image.png"
-                    image.write_bytes(_IMAGE)
-                    native.apply(helper, "set_texture_per_mesh", textname=str(image))
+                if part.is_mapped:
+                    native.load(helper, _mapped_square(Path(folder), part.has_image))
+                else:
+                    native.add(helper, pymeshlab.Mesh(**{**square, **part.given()}))
                 helper.save_current_mesh(str(file), save_textures=False)
                 native.load(helper, file)
         except native.ERRORS:
             native.forget_failures()
             return not part.keyword or holds(ending, part.keyword)
         return part.is_there(helper.current_mesh())
+
+
+def _mapped_square(folder: Path, has_image: bool) -> Path:
+    """A file with a square and texture coordinates: `pymeshlab.Mesh` leaves open of which image."""
+    file = folder / "mapped.obj"
+    file.write_text(("mtllib m.mtl\nusemtl m\n" if has_image else "") + _MAPPED)
+    (folder / "m.mtl").write_text("newmtl m\nmap_Kd image.png\n")
+    (folder / "image.png").write_bytes(_IMAGE)
+    return file

@@ -99,8 +99,9 @@ BY_DEFAULT = (
 _WEDGES = Part(
     "texture coordinates",
     "save_wedge_texcoord",
-    lambda: {"w_tex_coords_matrix": _array(6, 2)()},
+    dict,
     lambda mesh: mesh.has_wedge_tex_coord() and _differ(mesh.wedge_tex_coord_matrix()),
+    is_mapped=True,
 )
 
 

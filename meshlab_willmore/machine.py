@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -37,6 +38,10 @@ _LITTLE = 65536
 MEND = "; mend it with: "
 
 
+_BROKEN_LIBRARY = r"lib\S+\.so\S*: (cannot open shared object|file too short|invalid ELF header)"
+_NOT_LOADED = "PyMeshLab could not be loaded: "
+
+
 class Problem(NamedTuple):
     """What is wrong, and a command that mends it."""
 
@@ -67,6 +72,17 @@ def join(problems: Iterable[Problem]) -> Problem:
     """Several problems as one."""
     texts, cures = zip(*problems, strict=True)
     return Problem(" and ".join(texts), "; ".join(cures))
+
+
+def without_library(error: ImportError) -> str | None:
+    """What to say of an import that failed at a library of the system; None if it did not."""
+    text = str(error)
+    if text.startswith(_NOT_LOADED) or not re.search(_BROKEN_LIBRARY, text):
+        return None
+    return (
+        f"{_NOT_LOADED}{text}. On Debian and Ubuntu its system libraries come with: "
+        "apt-get install libgl1 libopengl0"
+    )
 
 
 def fault_of(error: BaseException | None) -> MachineError | None:

@@ -126,6 +126,10 @@ def filters() -> Finding:
     wrong = _wrong_setting("filters", answer)
     if wrong:
         return wrong
+    missing = _missing_libraries(answer.printed)
+    if not answer.values and missing:
+        text = f"the Willmore filters are not there: {', '.join(missing)} is missing or broken"
+        return Finding("filters", False, text, _system_libraries())
     if not answer.values.get("registered"):
         lines = answer.printed.splitlines() or ["no reason was given"]
         text = f"the Willmore filters are not there: {lines[-1]}"

@@ -70,8 +70,10 @@ class OneLineErrors(click.Group):
             fault = machine.fault_of(error)
             if fault is not None:
                 raise click.ClickException(one_line(fault)) from error
-            hint = DOCTOR if isinstance(error, ImportError) else ""
-            raise click.ClickException(one_line(error) + hint) from error
+            text = one_line(error)
+            if isinstance(error, ImportError):
+                text = (machine.without_library(error) or text) + DOCTOR
+            raise click.ClickException(text) from error
 
 
 @contextmanager

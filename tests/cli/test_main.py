@@ -223,7 +223,8 @@ def test_what_is_missing_leads_to_the_doctor(monkeypatch):
     result = run("demo")
     assert result.exit_code == 1
     assert result.stderr == (
-        "Error: libGL.so.1: cannot open shared object file "
+        "Error: PyMeshLab could not be loaded: libGL.so.1: cannot open shared object file. On "
+        "Debian and Ubuntu its system libraries come with: apt-get install libgl1 libopengl0 "
         "('meshlab-willmore doctor' tells what is missing)\n"
     )
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import sys
 import unicodedata
 from collections.abc import Sequence
 from typing import Any
@@ -31,8 +32,10 @@ def in_columns(rows: Sequence[Sequence[str]], left: int = 1) -> str:
 def fitted(rows: Sequence[Sequence[str]]) -> list[tuple[str, ...]]:
     """The rows with so much of the ends of their first cells that the columns fit into the window.
 
-    In a pipe the window is taken for 80 columns wide.
+    Who reads from a pipe wants whole names, unless the variable ``COLUMNS`` says how wide it is.
     """
+    if not (columns_of(sys.stdout) or "COLUMNS" in os.environ):
+        return [(printable(name), *rest) for name, *rest in rows]
     window = shutil.get_terminal_size().columns
     others = [max(map(width, column)) for column in list(zip(*rows, strict=True))[1:]]
     room = max(window - sum(others) - len(GAP) * len(others), _LEAST_OF_NAME)

@@ -48,6 +48,8 @@ MOST_DEPTH = 100
 MOST_SWEEPS = 10**9
 # Cost reductions are ranked in steps of this part of the median edge, to the energy's power.
 RANK_STEP = 1e-9
+# Steps of the unit of length, and the least median edge that has one.
+UNIT_STEP, SHORTEST = 16.0, 1e-30
 
 
 class FlipResult(NamedTuple):
@@ -140,7 +142,7 @@ def optimize_flips(
     Parameters
     ----------
     vertices : (n, 3) array_like of float
-        Coordinates. Those below 1e-45 of the largest one count as 0.
+        Coordinates. Those below 5e-23 of the largest one count as 0.
     faces : (m, 3) array_like of int
         Vertex indices of each face.
     energy : str
@@ -329,7 +331,9 @@ def _suited(rules, kind, mesh):
     )
     if not (kind.length_power and len(mesh.origin)):
         return rules
-    unit = float(np.median(lengths_of_sides(mesh))) ** kind.length_power
+    # In large steps: flips change the median, and the same tolerance has to hold in a second run.
+    steps = round(math.log(max(float(np.median(lengths_of_sides(mesh))), SHORTEST), UNIT_STEP))
+    unit = UNIT_STEP ** (steps * kind.length_power)
     return rules._replace(tolerance=kind.least * unit, rank_step=RANK_STEP * unit)
 
 

@@ -348,6 +348,48 @@ def test_the_result_is_a_minimum_of_its_own_search(mesh, energy):
     assert again.converged
 
 
+def flat_on_both_sides():
+    """A closed surface in a plane: many flips leave its Willmore energy as it is."""
+    vertices = np.zeros((11, 3))
+    vertices[:, 0] = [-19, 5, 17, -19, 17, -19, -1, -1, 17, 8, -6]
+    vertices[:, 1] = [-14, 16, 13, 4, 4, -23, 4, 13, -5, 4, 9]
+    upper = [(2, 0, 6), (6, 0, 7), (9, 3, 5), (4, 5, 8), (9, 5, 4), (5, 0, 8), (6, 7, 2)]
+    lower = [(3, 0, 5), (4, 8, 2), (3, 4, 2), (4, 3, 9), (0, 2, 8), (3, 7, 0), (3, 2, 7)]
+    return vertices, np.array(upper + lower, np.int32)
+
+
+@pytest.mark.parametrize("search", ["parallel greedy", "greedy"])
+def test_no_tie_is_left_for_a_second_run(search):
+    """At the end the search forgets which edges it must not bring back."""
+    vertices, faces = flat_on_both_sides()
+    result = optimize_flips(vertices, faces, search=search)
+    assert result.converged
+    assert result.flips > 7
+    assert optimize_flips(vertices, result.faces, search=search).flips == 0
+
+
+@pytest.mark.heavy
+def test_chains_on_the_virtual_energy_leave_it_nothing_to_lower():
+    """They are judged by another energy, so that single flips may be left."""
+    vertices, faces = meshes.grid(4, 4)
+    vertices[[1, 6, 8, 10, 18, 19, 23], 2] = 1.0
+    options = {"search": "variable depth", "depth": 3}
+    result = optimize_flips(vertices, faces, **options)
+    assert result.converged
+    assert optimize_flips(vertices, result.faces, **options).flips == 0
+
+
+@pytest.mark.parametrize("energy", ["area", "mean curvature"])
+def test_flips_do_not_change_the_least_gain_of_a_flip(energy):
+    """The median edge is another one afterwards: a second run would flip what was too little."""
+    vertices, faces = BUMPY
+    kind, rules = KINDS[energy], optimize._rules(True, 90.0, None)
+    after = optimize_flips(vertices, faces, energy=energy).faces
+    one, other = (optimize._suited(rules, kind, build(vertices, f)) for f in (faces, after))
+    assert (one.tolerance, one.rank_step) == (other.tolerance, other.rank_step)
+    assert one.tolerance > 0.0
+
+
 def rotation(seed):
     matrix, _ = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))
     return matrix * np.sign(np.linalg.det(matrix))

@@ -8,8 +8,9 @@ import numpy as np
 # Half-edges are numbered 3 f + c in int32.
 MOST_FACES = (2**31 - 1) // 3
 MOST_VERTICES = 2**31 - 1
-# Least coordinate at unit scale: the difference of two is above 2**-202, or none.
-LEAST = 2.0**-150
+# Least coordinate at unit scale: the difference of two is above 2**-126, or none, and the squares
+# of products of four such lengths, which angles take, are in the range of floats.
+LEAST = 2.0**-74
 REPAIR_NULL_FACES = "meshing_remove_null_faces"
 REPAIR_NOT_FINITE = (
     "the PyMeshLab filters compute_selection_by_condition_per_vertex"

@@ -19,7 +19,7 @@ from .shapes import random_mesh
 # Edges of slivers of a lower shape are no creases.
 CREASE_SHAPE = 1e-5
 # Coordinates below this part of the largest one count as zero.
-LEAST = 2.0**-150
+LEAST = 2.0**-74
 AGAIN = {"annealing": "greedy", "thorough": "variable depth"}
 
 

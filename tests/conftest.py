@@ -4,11 +4,13 @@ The package keys its cache by the sources of all kernels, so the folder is kept 
 Before workers of pytest-xdist start, everything is compiled, on all cores.
 """
 
+import atexit
 import os
 import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import pytest
@@ -37,8 +39,16 @@ mark.parent.touch()
 
 
 def _cache():
-    home = os.environ.get("XDG_CACHE_HOME") or Path("~/.cache").expanduser()
-    return Path(home, "meshlab_willmore-tests")
+    """The folder in the user's cache; of those who have none, one for this session."""
+    home = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
+    folder = Path(home, "meshlab_willmore-tests")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        tempfile.TemporaryFile(dir=folder).close()
+    except OSError:
+        folder = Path(tempfile.mkdtemp(prefix="meshlab_willmore-tests-"))
+        atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder
 
 
 if not JIT_IS_OFF and not IS_WORKER:
@@ -51,12 +61,16 @@ def pytest_sessionstart(session):
     if JIT_IS_OFF or IS_WORKER or not has_workers or session.config.option.collectonly:
         return
     subprocess.run([sys.executable, "-c", WARM_UP], check=True)
-    states = sorted(_cache().iterdir(), key=lambda folder: folder.stat().st_mtime)
+    cache = Path(os.environ["NUMBA_CACHE_DIR"])
+    states = sorted(cache.iterdir(), key=lambda folder: folder.stat().st_mtime)
     for old in states[:-KEPT]:
         shutil.rmtree(old, ignore_errors=True)
 
 
 def pytest_collection_modifyitems(config, items):
+    # After a native filter that failed, PyMeshLab prints nothing more in a process: tests that read
+    # what it prints come first, at the beginning of the first worker's share.
+    items.sort(key=lambda item: "capfd" not in item.fixturenames)
     if JIT_IS_OFF:
         for item in items:
             if item.get_closest_marker("heavy"):

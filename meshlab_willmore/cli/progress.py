@@ -14,12 +14,12 @@ import shutil
 import sys
 import threading
 import time
-import unicodedata
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from typing import Any, TextIO
 
 from . import cache_notes
+from .columns import beginning_of, columns_of, end_of, printable, width
 
 SECONDS_ON_A_TERMINAL = 1.0
 SECONDS_IN_A_LOG = 60.0
@@ -28,7 +28,6 @@ _BAR = 16
 # In windows that are narrower there is room for nothing else.
 _ROOM_FOR_LABEL = 40
 _LEAST_SHOWN = 10
-_DOTS = "..."
 
 
 class Status:
@@ -45,7 +44,7 @@ class Status:
     """
 
     def __init__(self, label: str, total: int = 0, clock: Callable[[], float] = time.monotonic):
-        self._label = _printable(label)
+        self._label = printable(label)
         self._total = total
         self._clock = clock
         self._done = self._begun = 0
@@ -55,7 +54,7 @@ class Status:
 
     def begin(self, what: str) -> None:
         """Something else is done from now on."""
-        self._what, self._detail, self._since = _printable(what), "", self._clock()
+        self._what, self._detail, self._since = printable(what), "", self._clock()
 
     def next(self, what: str) -> None:
         """The next part is begun; the one before is done."""
@@ -73,7 +72,7 @@ class Status:
 
     def detail(self, text: str) -> None:
         """Say more of what is being done."""
-        self._detail = _printable(text)
+        self._detail = printable(text)
 
     def hide(self) -> None:
         """Take the line off the terminal, until it is drawn again: something else is printed."""
@@ -87,9 +86,9 @@ class Status:
         head = ""
         if room >= _ROOM_FOR_LABEL:
             bar = self._bar()
-            head = f"{_end_of(self._label, room // 3)}{bar}  "
-        text = self._text_in(room - _width(head) - len(seconds))
-        return _beginning_of(f"{head}{text}{seconds}", room)
+            head = f"{end_of(self._label, room // 3)}{bar}  "
+        text = self._text_in(room - width(head) - len(seconds))
+        return beginning_of(f"{head}{text}{seconds}", room)
 
     def sentence(self) -> str:
         """The whole line for a log."""
@@ -98,12 +97,12 @@ class Status:
 
     def _text_in(self, columns: int) -> str:
         """The text in so many columns; what is the news there goes before what it belongs to."""
-        left = columns - _width(self._detail) - 2
-        if not self._detail or _width(self._what) <= left:
-            return _beginning_of(self._text(), columns)
+        left = columns - width(self._detail) - 2
+        if not self._detail or width(self._what) <= left:
+            return beginning_of(self._text(), columns)
         if left < _LEAST_SHOWN:
-            return _beginning_of(self._detail, columns)
-        return f"{_beginning_of(self._what, left)}: {self._detail}"
+            return beginning_of(self._detail, columns)
+        return f"{beginning_of(self._what, left)}: {self._detail}"
 
     def _text(self) -> str:
         return ": ".join(filter(None, (self._what, self._detail)))
@@ -177,9 +176,9 @@ class _Screen:
     def draw(self) -> None:
         with self._lock:
             line = self._line()
-            width = _width(line)
-            self._put(f"\r{line}{' ' * max(0, self._drawn - width)}")
-            self._drawn = max(width, 0)
+            drawn = width(line)
+            self._put(f"\r{line}{' ' * max(0, self._drawn - drawn)}")
+            self._drawn = drawn
 
     def hide(self) -> None:
         with self._lock:
@@ -246,46 +245,5 @@ def _repeated(action: Callable[[], object], seconds: float) -> Iterator[None]:
         thread.join()
 
 
-# --- the width of text -------------------------------------------------------------------------
-
-
 def _columns(stream: TextIO) -> int:
-    try:
-        return os.get_terminal_size(stream.fileno()).columns or shutil.get_terminal_size().columns
-    except (OSError, ValueError):
-        return shutil.get_terminal_size().columns
-
-
-def _width(text: str) -> int:
-    return sum(map(_columns_of, text))
-
-
-def _columns_of(letter: str) -> int:
-    if unicodedata.combining(letter):
-        return 0
-    return 2 if unicodedata.east_asian_width(letter) in "WF" else 1
-
-
-def _printable(text: str) -> str:
-    return "".join(letter if letter.isprintable() else "?" for letter in text)
-
-
-def _beginning_of(text: str, columns: int) -> str:
-    """The text, or its beginning and dots, in at most so many columns."""
-    if _width(text) <= columns:
-        return text
-    room = columns - len(_DOTS)
-    kept = ""
-    for letter in text:
-        room -= _columns_of(letter)
-        if room < 0:
-            break
-        kept += letter
-    return f"{kept}{_DOTS}" if columns >= len(_DOTS) else text[: max(columns, 0)]
-
-
-def _end_of(text: str, columns: int) -> str:
-    """The text, or dots and its end: in a path that tells most."""
-    if _width(text) <= columns:
-        return text
-    return _beginning_of(text[::-1], columns)[::-1]
+    return columns_of(stream) or shutil.get_terminal_size().columns

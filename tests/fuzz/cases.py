@@ -50,14 +50,20 @@ class Case:
         locked, is_sure = self._locked()
         promise.check_connectivity(faces, result.faces)
         promise.check_kept(result.faces, locked)
+        wedge_uv = self.options.get("wedge_uv")
+        if wedge_uv is not None:
+            promise.check_mapping(wedge_uv, self._carried(result))
         if is_sure:
             promise.check_corners(faces, result.faces, result.corners, locked)
         self._check_numbers(result)
-        self._check_mappings(result)
         self._check_energy(result)
         self._check_cuts(result)
         self._check_repeated(vertices, faces, result)
         self._check_again(vertices, result, locked, is_sure)
+
+    def _carried(self, result):
+        """The texture coordinates of the new faces."""
+        return self.options["wedge_uv"].reshape(-1, 2)[result.corners]
 
     def _run(self, vertices, faces, options, threads=1):
         """Run on so many threads; on several with the work in small pieces."""
@@ -121,14 +127,6 @@ class Case:
             left_out = ~self.options["selected_faces"]
             np.testing.assert_array_equal(result.faces[left_out], self.faces[left_out])
 
-    def _check_mappings(self, result):
-        """No texture triangle is turned over or made flat."""
-        uv = self.options.get("wedge_uv", np.empty((len(self.faces), 3, 0)))
-        for column in range(0, uv.shape[2], 2):
-            mapping = uv[:, :, column : column + 2]
-            moved = mapping.reshape(-1, 2)[result.corners]
-            promise.check_mapping(mapping, moved)
-
     def _check_energy(self, result):
         """The energy falls by what the result says, up to what rounding may do."""
         energy, search = self.options["energy"], self.options["search"]
@@ -179,8 +177,7 @@ class Case:
         options["locked_edges"] = np.array(sorted(locked), int).reshape(-1, 2)
         options.pop("maxflips", None)
         if "wedge_uv" in options:
-            uv = options["wedge_uv"]
-            options["wedge_uv"] = uv.reshape(-1, uv.shape[2])[result.corners]
+            options["wedge_uv"] = self._carried(result)
         search = options["search"]
         options["search"] = AGAIN.get(search, search)
         again = self._run(vertices, result.faces, options)

@@ -10,6 +10,21 @@ def _angle(rng, usual):
     return float(rng.choice([usual, usual, 0.0, 30.0, 90.0, 180.0, rng.uniform(0.0, 180.0)]))
 
 
+def random_mapping(rng, vertices, faces):
+    """Texture coordinates (m, 3, 2): charts with seams between them, folds, ties, odd values."""
+    points = vertices[:, rng.permutation(3)[:2]] / max(np.abs(vertices[faces]).max(), 1e-300)
+    if rng.random() < 0.3:
+        points = rng.random((len(vertices), 2))
+    if rng.random() < 0.3:
+        points = np.round(4.0 * points)
+    uv = points[faces] * rng.choice([1.0, -1.0], 2)
+    other_chart = rng.random(len(faces)) < rng.choice([0.0, 0.1, 0.5])
+    uv[other_chart] += 1.0
+    if rng.random() < 0.2:
+        uv[rng.random(len(faces)) < 0.2] = rng.choice([0.0, np.nan])
+    return uv * 10.0 ** rng.choice([0.0, rng.uniform(-100.0, 100.0)])
+
+
 def random_options(rng, vertices, faces):
     """Options by name."""
     search = str(rng.choice(SEARCHES, p=[0.4, 0.15, 0.2, 0.1, 0.15]))
@@ -27,6 +42,8 @@ def random_options(rng, vertices, faces):
     if edges and rng.random() < 0.2:
         some = np.array(edges)[rng.random(len(edges)) < 0.2]
         options["locked_edges"] = np.where(rng.random((len(some), 1)) < 0.5, some, some[:, ::-1])
+    if len(faces) and rng.random() < 0.15:
+        options["wedge_uv"] = random_mapping(rng, vertices, faces)
     if rng.random() < 0.15:
         options["maxflips"] = int(rng.integers(0, 12))
     if options["energy"] == "virtual willmore":
@@ -39,29 +56,4 @@ def random_options(rng, vertices, faces):
     if search == "annealing":
         options["sweeps"] = int(rng.integers(1, 12))
         options["seed"] = int(rng.integers(2**31))
-    if rng.random() < 0.25:
-        mappings = [_mapping(rng, vertices, faces) for _ in range(rng.integers(1, 3))]
-        options["wedge_uv"] = np.concatenate(mappings, axis=2)
     return options
-
-
-def _mapping(rng, vertices, faces):
-    """Texture coordinates of corners, (m, 3, 2): plain, mirrored, folded, in charts, with holes."""
-    unit = vertices / (np.abs(vertices).max(initial=0.0) or 1.0)
-    uv = (
-        unit[:, :2],
-        unit[:, :2] * (-1.0, 1.0),
-        unit[:, :2] + rng.normal(0.0, 0.1, (len(unit), 2)),
-        np.round(8.0 * unit[:, :2]) / 10.0,
-        unit @ rng.normal(size=(3, 2)),
-        rng.integers(0, 4, (len(unit), 2)).astype(float),
-    )[rng.integers(6)]
-    wedges = uv[faces].reshape(-1, 3, 2)
-    if rng.random() < 0.4:
-        chart = unit[faces].reshape(-1, 3, 3).mean(axis=1) @ rng.normal(size=3) > 0.0
-        wedges[chart] = wedges[chart] * rng.choice([-1.0, 1.0], 2) + rng.choice([0.0, 3.0])
-    if rng.random() < 0.2:
-        wedges[rng.random(len(faces)) < 0.3] = 0.0
-    if rng.random() < 0.1:
-        wedges[rng.random((len(faces), 3)) < 0.02] = rng.choice([np.nan, np.inf])
-    return wedges * rng.choice([1.0, 1.0, 1.0, 2.0**-490, 2.0**480, 1e-20])

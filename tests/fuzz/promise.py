@@ -68,6 +68,9 @@ def check_connectivity(before, after):
     assert len(edges(new)) == len(edges(old)), "the number of edges differs"
     one, other = fans(before), fans(after)
     assert one.keys() == other.keys(), "a vertex lost all of its faces"
+    had, has = (Counter(v for edge in edges(counted) for v in edge) for counted in (old, new))
+    bare = [v for v in has if has[v] < min(had[v], 3)]
+    assert not bare, f"vertices {bare} are left with less than three edges"
     torn = [v for v in one if one[v] and not other[v]]
     assert not torn, f"new non-manifold vertices {torn}"
 
@@ -76,40 +79,6 @@ def check_kept(after, kept):
     """All edges of a set are there."""
     missing = kept - edges(half_edges(after))
     assert not missing, f"edges that had to stay are gone: {sorted(missing)}"
-
-
-def seams(faces, uv):
-    """Edges whose faces have other texture coordinates at one end, and those of faces without."""
-    found, sides = set(), {}
-    for face, wedges in zip(faces.tolist(), uv.tolist(), strict=True):
-        for c in range(3):
-            ends = {face[c]: tuple(wedges[c]), face[c - 2]: tuple(wedges[c - 2])}
-            edge = tuple(sorted(ends))
-            there = tuple(ends[v] for v in edge)
-            if sides.setdefault(edge, there) != there or not np.isfinite(wedges).all():
-                found.add(edge)
-    return found
-
-
-def _signs(mapping):
-    """How many texture triangles of each orientation there are, exactly."""
-    found = Counter()
-    for triangle in mapping.tolist():
-        if not np.isfinite(triangle).all():
-            found["nowhere"] += 1
-            continue
-        (a, b), (c, d), (e, f) = ([Fraction(x) for x in point] for point in triangle)
-        area = (c - a) * (f - b) - (d - b) * (e - a)
-        found[(area > 0) - (area < 0)] += 1
-    return found
-
-
-def check_mapping(before, after):
-    """No texture triangle is turned over or made flat that was not so before."""
-    old, new = _signs(before), _signs(after)
-    assert new["nowhere"] == old["nowhere"]
-    assert new[1] >= old[1], f"{old[1] - new[1]} texture triangles of positive area are gone"
-    assert new[-1] >= old[-1], f"{old[-1] - new[-1]} texture triangles of negative area are gone"
 
 
 def _sectors(faces, barred):
@@ -163,3 +132,36 @@ def check_corners(before, after, corners, locked):
         assert were == bounds, f"corner {(f, c)} comes from the other side of a locked edge"
         assert there.setdefault(group, was) == was, f"corner {(f, c)} comes from another fan"
     assert len(set(there.values())) == len(there), "two fans have become one"
+
+
+def seams(faces, wedge_uv):
+    """The edges with two faces that have other texture coordinates at one of its ends."""
+    there, found = {}, set()
+    for face, uv in zip(np.asarray(faces).tolist(), np.asarray(wedge_uv).tolist(), strict=True):
+        for c in range(3):
+            there[face[c], face[(c + 1) % 3]] = uv[c], uv[(c + 1) % 3]
+    for a, b in _pairs(half_edges(faces)):
+        if there[a, b] != there[b, a][::-1]:
+            found.add((a, b))
+    return found
+
+
+def signs(wedge_uv):
+    """How many texture triangles have an area of each sign, exactly; None: not finite."""
+    counted = Counter()
+    for uv in np.asarray(wedge_uv):
+        if not np.isfinite(uv).all():
+            counted[None] += 1
+            continue
+        (ax, ay), (bx, by), (cx, cy) = ([Fraction(x) for x in corner] for corner in uv.tolist())
+        area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+        counted[(area > 0) - (area < 0)] += 1
+    return counted
+
+
+def check_mapping(before, after):
+    """No texture triangle is turned over, and none became flat."""
+    old, new = signs(before), signs(after)
+    assert new[None] == old[None], "texture coordinates that are not finite have spread"
+    assert new[1] >= old[1], f"{old[1] - new[1]} texture triangles turned over"
+    assert new[-1] >= old[-1], f"{old[-1] - new[-1]} texture triangles turned over"

@@ -52,6 +52,12 @@ def test_a_vertex_that_is_torn():
         promise.check_connectivity(apart, meeting)
 
 
+def test_a_corner_that_is_left_with_two_edges():
+    faces = np.array([(0, 1, 2), (0, 2, 3), (0, 3, 4)])
+    with pytest.raises(AssertionError, match=r"vertices \[2\] are left with less than three edges"):
+        promise.check_connectivity(faces, flipped(faces, 0, 2))
+
+
 def test_a_lost_edge():
     with pytest.raises(AssertionError, match=r"gone: \[\(0, 1\)\]"):
         promise.check_kept(flipped(RING, 0, 1), {(0, 1), (1, 2)})
@@ -79,16 +85,17 @@ def test_corners_of_the_other_side_of_a_locked_edge():
 
 
 def test_a_texture_triangle_that_is_turned_over():
-    mapping = VERTICES[FACES][:, :, :2] + 0.1 * VERTICES[FACES][:, :, 2:]
-    promise.check_mapping(mapping, mapping[::-1])
-    turned = mapping.copy()
-    turned[2] = turned[2, ::-1]
-    with pytest.raises(AssertionError, match="1 texture triangles of"):
-        promise.check_mapping(mapping, turned)
-    assert promise.seams(FACES, mapping) == set()
-    mapping[0, 0] += 1.0
-    a, b, c = FACES[0].tolist()
-    assert promise.seams(FACES, mapping) == {tuple(sorted((a, b))), tuple(sorted((c, a)))}
+    vertices, faces = meshes.grid(2, 2)
+    uv = vertices[faces][:, :, :2]
+    promise.check_mapping(uv, np.roll(uv, 1, axis=1))
+    assert promise.signs(uv) == {1: 8}
+    for other, message in ((uv[:, ::-1], "turned over"), (np.zeros_like(uv), "turned over")):
+        with pytest.raises(AssertionError, match=message):
+            promise.check_mapping(uv, other)
+    assert promise.seams(faces, uv) == set()
+    uv = uv.copy()
+    uv[0] += 1.0
+    assert promise.seams(faces, uv) == {(0, 4), (1, 4)}
 
 
 @pytest.mark.parametrize(

@@ -54,6 +54,8 @@ def command(files: tuple[str, ...], as_json: bool) -> None:
         click.echo(json.dumps([_for_json(row) for row in measured], indent=2))
     elif measured:
         click.echo(_table(measured))
+    if not measured and count == 1:
+        click.get_current_context().exit(1)
     if len(measured) < count:
         raise click.ClickException(how_many_failed(count - len(measured), count))
 

@@ -27,7 +27,7 @@ SOURCES = (
     "energy/*.py",
     "guards/*.py",
     "measure.py",
-    *(f"mesh/{name}.py" for name in ("build", "halfedge", "jit", "normals", "points")),
+    *(f"mesh/{name}.py" for name in ("build", "halfedge", "jit", "normals", "points", "rounding")),
     "search/*.py",
 )
 # Settings of Numba that change the code, but for the processor's, by which Numba itself keys.

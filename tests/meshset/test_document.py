@@ -4,7 +4,7 @@ import pymeshlab
 import pytest
 
 from meshlab_willmore import script
-from meshlab_willmore.meshset import document
+from meshlab_willmore.meshset import document, native
 from meshlab_willmore.meshset.catalogue import find
 from meshlab_willmore.meshset.check import faults_of
 from meshlab_willmore.mlx.steps import Param, Step
@@ -43,7 +43,7 @@ def test_the_chosen_layer_is_the_one_that_steps_change(cubes, name):
 def test_a_layer_that_was_flipped_is_chosen_by_its_id(cubes):
     cubes.add_mesh(pymeshlab.Mesh(*meshes.cube()), "flipped")
     assert getattr(cubes, FLIP)()["flips"] == 6
-    assert cubes.current_mesh_id() != 3
+    assert native.current_id(cubes) != 3
     script.run([step(CHOOSE, mesh=0), step(CHOOSE, mesh=3)], cubes)
     assert cubes.current_mesh().label() == "flipped"
 

@@ -73,6 +73,7 @@ def reference_extrinsic_curvature(vertices, faces):
 
 
 @pytest.mark.parametrize("seed", range(3))
+@pytest.mark.slow
 def test_the_extrinsic_curvature_is_that_of_the_convex_cones(seed):
     vertices, faces = meshes.bumpy_sphere(30, seed, bump=0.5)
     wanted = reference_extrinsic_curvature(vertices, faces)
@@ -117,6 +118,7 @@ def test_the_paper_s_flips_lead_from_the_greatest_area_to_the_least():
     ("measure", "wanted"),
     [("area", 4.83738), ("M", 23.63764), ("extrinsic", 12.80518)],
 )
+@pytest.mark.slow
 def test_flips_of_cube_edges_lower_the_area_but_not_the_curvatures(measure, wanted):
     vertices, _ = meshes.cube(PUSH)
     found = best_first(vertices, [faces_of_ways(FANS)], measure, 60)

@@ -197,6 +197,7 @@ def loaded(path):
 
 
 @pytest.mark.heavy
+@pytest.mark.slow
 def test_story_has_its_stages(told):
     _, story, lines = told
     assert [(stage.model, stage.name) for stage in story.stages] == [
@@ -244,6 +245,7 @@ def test_cubes_rows_are_exact(told):
 
 
 @pytest.mark.heavy
+@pytest.mark.slow
 def test_meshes_are_written_and_only_edges_differ(told):
     folder, story, _ = told
     assert sorted(folder.iterdir()) == sorted(story.files)
@@ -271,6 +273,7 @@ def test_meshes_are_written_and_only_edges_differ(told):
 
 
 @pytest.mark.heavy
+@pytest.mark.slow
 def test_pictures_are_written_and_not_blank(told):
     image = pytest.importorskip("matplotlib.image")
     from meshlab_willmore.report.pictures import CAPTION_HEIGHT, PANEL_WIDTH, PIXELS_PER_INCH

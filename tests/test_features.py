@@ -106,6 +106,7 @@ def _ends(faces):
 @pytest.mark.parametrize("part", PARTS)
 @pytest.mark.parametrize("energy", KERNELS)
 @pytest.mark.parametrize("search", SEARCHES)
+@pytest.mark.slow
 def test_feature_edges_stay_and_so_does_the_shape(search, energy, part):
     vertices, faces = PARTS[part]
     wanted = features(vertices, faces)

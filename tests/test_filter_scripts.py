@@ -42,6 +42,7 @@ def test_each_says_what_it_is_for_and_has_no_fault(path):
 
 
 @pytest.mark.heavy
+@pytest.mark.slow
 def test_clean_and_flip_a_face_scan():
     ms = loaded("rangemaps/face000.ply")
     steps = run("clean_and_flip.mlx", ms)
@@ -64,6 +65,7 @@ def test_flip_a_bunny():
 
 
 @pytest.mark.heavy
+@pytest.mark.slow
 def test_remesh_and_flip_a_bone():
     ms = loaded("bone.ply")
     remeshed = loaded("bone.ply")

@@ -67,6 +67,7 @@ def test_by_day_each_two_options_meet():
 
 @pytest.mark.heavy
 @pytest.mark.parametrize(("search", "energy", "options", "name"), list(combinations()))
+@pytest.mark.slow
 def test_no_new_face_cuts_and_meshlab_counts_no_more(search, energy, options, name):
     vertices, faces = MESHES[name]()
     options = {"search": search, "energy": energy, "depth": 3, "breadth": 1, **options}

@@ -240,6 +240,7 @@ def test_the_order_of_the_faces_and_the_kind_of_the_array_do_not_matter():
 
 
 @pytest.mark.heavy
+@pytest.mark.slow
 def test_the_textured_bunny():
     ms = pymeshlab.MeshSet(verbose=False)
     ms.load_new_mesh(str(BUNNY))

@@ -170,6 +170,7 @@ def test_the_paper_s_torus(arguments, energy, wanted):
 @pytest.mark.parametrize(
     ("arguments", "energy"), [((2000, 0.3, 8), 115.754), ((2000, None, 1), 206.4)]
 )
+@pytest.mark.slow
 def test_chains_of_flips_get_far_below_greed_on_the_torus(arguments, energy):
     vertices, faces = meshes.torus(*arguments)
     result = optimize_flips(vertices, faces, energy="willmore", search="variable depth")
@@ -182,6 +183,7 @@ def test_chains_of_flips_get_far_below_greed_on_the_torus(arguments, energy):
 
 @pytest.mark.heavy
 @pytest.mark.parametrize("seed", [308, 309, 314, 319])
+@pytest.mark.slow
 def test_tangles_that_no_chain_of_three_flips_undoes_are_found(seed):
     """Each of these scrambles ends in one, with W 124 or 127, if chains stop at the depth."""
     vertices, faces = meshes.torus(2000, 0.3, 8)
@@ -207,6 +209,7 @@ def test_the_result_does_not_depend_on_the_start(seed, search):
 
 @pytest.mark.heavy
 @pytest.mark.parametrize("energy", BOTH_WILLMORE)
+@pytest.mark.slow
 def test_depth_and_breadth_reach_the_search(energy):
     vertices, faces = meshes.bumpy_sphere(300, 2, bump=0.6)
     options = {"energy": energy, "search": "variable depth"}
@@ -250,6 +253,7 @@ def test_gain_is_before_minus_after_on_a_closed_mesh(monotone):
 @pytest.mark.heavy
 @pytest.mark.parametrize("search", optimize.SEARCHES)
 @pytest.mark.parametrize("energy", POTENTIALS)
+@pytest.mark.slow
 def test_gain_is_the_drop_of_the_energy_in_its_own_unit(energy, search):
     total, power = KINDS[energy].total, KINDS[energy].length_power
     for vertices, faces in (BUMPY, PATCH, meshes.torus(100, None, 1)):
@@ -266,6 +270,7 @@ def test_gain_is_the_drop_of_the_energy_in_its_own_unit(energy, search):
 @pytest.mark.heavy
 @pytest.mark.parametrize("search", optimize.SEARCHES)
 @pytest.mark.parametrize("energy", optimize.KERNELS)
+@pytest.mark.slow
 def test_every_search_is_worth_it_on_every_energy(energy, search):
     """No single flip that is allowed lowers the energy at the end: a scan over all edges."""
     vertices, faces = meshes.bumpy_sphere(150, 4)
@@ -618,6 +623,7 @@ def test_odd_meshes_get_a_right_result(search, energy, monotone, name):
 
 
 @pytest.mark.heavy
+@pytest.mark.slow
 def test_vertices_with_very_many_edges_cost_no_more_than_others():
     """A double pyramid: each edge of its rim joins, once flipped, the two tips."""
     count = 100_000

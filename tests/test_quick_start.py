@@ -54,11 +54,13 @@ def test_without_numba_the_import_goes_on_and_its_use_says_why():
     assert "numba" in done.stderr.splitlines()[-1]
 
 
+@pytest.mark.slow
 def test_linear_algebra_is_not_imported_in_vain():
     assert run(SPARED).stdout == "False\n"
 
 
 @pytest.mark.heavy
+@pytest.mark.slow
 def test_linear_algebra_of_others_works():
     done = run(MULTIPLIED)
     assert (done.stdout, done.stderr) == ("True\n", "")

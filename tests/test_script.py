@@ -219,6 +219,7 @@ print(other.mesh_number())
 """
 
 
+@pytest.mark.slow
 def test_files_can_be_read_and_written_after_a_step_failed(tmp_path):
     """PyMeshLab keeps a pointer to the log of the set whose filter failed."""
     run = subprocess.run(

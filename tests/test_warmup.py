@@ -74,6 +74,7 @@ def printed(program):
 
 @pytest.mark.heavy
 @pytest.mark.timeout(LONG)
+@pytest.mark.slow
 def test_after_it_no_process_compiles_anything():
     first, second = printed(WARM)[-1].split()
     assert int(first) >= 0

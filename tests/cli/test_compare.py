@@ -53,6 +53,7 @@ def shown(result):
     return result.stdout.split("\nflips:")[0].splitlines()
 
 
+@pytest.mark.slow
 def test_figures_are_those_of_direct_calls(cube, monkeypatch):
     monkeypatch.setattr(contenders, "PEERS", (PLANAR,))
     result = call("compare", cube, *CHOSEN, "--reference", "sphere:1", "--json")
@@ -228,6 +229,7 @@ def test_a_mesh_that_cannot_be_measured_ends_it(cube, rows):
         ),
     ],
 )
+@pytest.mark.slow
 def test_failures_are_one_line(cube, arguments, line):
     Path("bad.ply").write_text("no mesh")
     Path("points.xyz").write_text("0 0 0\n1 0 0\n0 1 0\n")

@@ -59,6 +59,7 @@ def test_a_problem_has_its_cure(monkeypatch):
 
 
 @pytest.mark.heavy
+@pytest.mark.slow
 def test_this_machine_is_fit():
     result = call("doctor", "--json")
     assert result.exit_code == 0, result.stdout
@@ -94,6 +95,7 @@ def test_a_missing_library_is_named(without_gl, on_debian):
 
 
 @NEEDS_LINUX
+@pytest.mark.slow
 def test_plugins_that_did_not_load_and_their_filters(tmp_path, monkeypatch, on_debian):
     if catalogue.version() != catalogue.recorded_version():
         pytest.skip("other versions have other plugins")
@@ -162,6 +164,7 @@ def test_a_compiler_that_is_switched_off(monkeypatch, value):
     assert checks.cache().ok
 
 
+@pytest.mark.slow
 def test_a_wrong_variable_is_the_same_fault_for_all_that_need_numba(monkeypatch):
     monkeypatch.setenv("NUMBA_NUM_THREADS", "x")
     monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)

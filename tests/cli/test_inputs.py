@@ -201,6 +201,7 @@ NAMES = ["a b", "ü", "[a]", "{name}", "a'b", 'a"b', "a#b%20", "-x", "~", "a;b",
 
 
 @POSIX
+@pytest.mark.slow
 def test_names_with_odd_characters(tmp_path):
     for name in NAMES:
         square(f"{name}.off")

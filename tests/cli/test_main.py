@@ -163,6 +163,7 @@ def test_help_imports_nothing_heavy():
 
 
 @pytest.mark.heavy
+@pytest.mark.slow
 def test_whole_demo_in_a_process_of_its_own(tmp_path):
     pytest.importorskip("matplotlib")
     folder = tmp_path / "pictures"

@@ -26,6 +26,7 @@ def test_table_is_laid_out_exactly():
     assert "W: Willmore energy." in result.stdout
 
 
+@pytest.mark.slow
 def test_json_is_all_there_is_on_the_output():
     cube_file()
     done = spawn("measure", "cube.ply", "--json")

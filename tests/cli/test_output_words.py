@@ -168,6 +168,7 @@ def test_polygons_and_text_as_meshlabserver_had_them():
     assert b"format ascii" in Path("a.ply").read_bytes()
 
 
+@pytest.mark.slow
 def test_every_combination_of_two_outputs(run):
     for one, two in itertools.product(("1", "x"), repeat=2):
         outputs = ["-o", "a.ply", "-l", one, "-o", "b.ply", "-l", two]

@@ -65,6 +65,7 @@ def test_output_is_what_the_same_calls_in_python_make(script, cube):
     assert listing() == ["cube.ply", "expected.ply", "out.ply", "script.mlx"]
 
 
+@pytest.mark.slow
 def test_in_a_process_of_its_own_it_prints_the_result_and_nothing_else(script, cube):
     done = spawn("run", script, "-i", cube, "-o", "out.ply")
     assert (done.returncode, done.stderr) == (0, "")
@@ -403,6 +404,7 @@ def test_native_filters_print_nothing_into_the_output(cube):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs a terminal of POSIX")
+@pytest.mark.slow
 def test_a_progress_bar_on_a_terminal(script, cube):
     try:
         reader, terminal = os.openpty()
@@ -485,6 +487,7 @@ def test_a_terminal_hears_of_compiling_only_while_something_is(monkeypatch, cube
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a shell of POSIX")
 @pytest.mark.parametrize("closed", [">&-", "2>&-", "<&- >&- 2>&-"])
+@pytest.mark.slow
 def test_closed_streams_are_no_matter(script, cube, closed):
     # The log would get the free descriptor.
     orders = f"run {script} -i {cube} -o out.ply --log log.txt"
@@ -500,6 +503,7 @@ def test_closed_streams_are_no_matter(script, cube, closed):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a shell of POSIX")
+@pytest.mark.slow
 def test_a_log_on_a_closed_output_goes_nowhere(script, cube):
     command = f"{shlex.quote(sys.executable)} -m meshlab_willmore run {script} -i {cube} -l - >&-"
     done = subprocess.run(

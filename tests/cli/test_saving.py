@@ -168,6 +168,7 @@ main(sys.argv[1:], prog_name="meshlab-willmore")
 # PLY's writer tells that it had to stop; those of the others don't.
 @pytest.mark.skipif(sys.platform == "win32", reason="needs limits of POSIX")
 @pytest.mark.parametrize("ending", ["ply", "obj", "xyz", "json", "dae"])
+@pytest.mark.slow
 def test_no_room_is_one_line_and_no_output(tmp_path, ending):
     script = tmp_path / "s.mlx"
     script.write_text(

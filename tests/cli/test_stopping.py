@@ -62,6 +62,7 @@ def run():
         (signal.SIGINT, 1, "\nAborted!\n"),
     ],
 )
+@pytest.mark.slow
 def test_a_signal_leaves_nothing(run, number, code, said):
     assert stopped_by(number, *run) == (code, said)
     assert listing() == ["cube.ply", "script.mlx"]
@@ -74,6 +75,7 @@ def test_a_kill_leaves_no_file_of_the_outputs_name(run):
     assert left.startswith(".out.")
 
 
+@pytest.mark.slow
 def test_an_older_output_stays_when_a_run_is_stopped(run):
     Path("out.ply").write_text("older")
     assert stopped_by(signal.SIGTERM, *run, "--force")[0] == 143
@@ -134,6 +136,7 @@ def ready(code, arguments, environment):
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.slow
 def test_a_native_step_ends_at_once(started, number):
     script = script_file(("Select All", {}))
     process = started(NATIVE, ["run", script, "-i", cube_file(), "-o", "out.ply"])
@@ -143,6 +146,7 @@ def test_a_native_step_ends_at_once(started, number):
     assert listing() == ["cube.ply", "script.mlx"]
 
 
+@pytest.mark.slow
 def test_a_second_signal_ends_at_once(started, run):
     deaf = SLOW.replace(
         "    time.sleep(60)",

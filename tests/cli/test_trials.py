@@ -43,6 +43,7 @@ def temporary(tmp_path_factory, monkeypatch):
     assert listing(folder) == []
 
 
+@pytest.mark.slow
 def test_a_row_goes_through_its_phases(task):
     said = []
     outcome = trials.run(task, OWN, said.append)
@@ -51,6 +52,7 @@ def test_a_row_goes_through_its_phases(task):
     assert outcome.figures["flips"] == 10
 
 
+@pytest.mark.slow
 def test_a_filter_that_is_too_slow_is_killed(task):
     said = []
     start = time.perf_counter()
@@ -60,6 +62,7 @@ def test_a_filter_that_is_too_slow_is_killed(task):
     assert time.perf_counter() - start < PATIENCE
 
 
+@pytest.mark.slow
 def test_a_crash_is_told_and_a_fault_has_its_reason(task):
     assert trials.run(task, DEADLY, print).error.startswith("crashed (SIG")
     outcome = trials.run(task, FAULTY, print)
@@ -108,6 +111,7 @@ def test_modules_of_the_working_directory_hide_no_others(task):
     assert trials.run(task, initial, print).figures["area"] == pytest.approx(6.22709, abs=1e-5)
 
 
+@pytest.mark.slow
 def test_the_clock_runs_while_the_filter_does():
     class Process:
         killed = False
@@ -183,6 +187,7 @@ def wait_for(condition):
         (signal.SIGKILL, -9, ""),
     ],
 )
+@pytest.mark.slow
 def test_no_process_outlives_the_command(task, temporary, number, code, said):
     process = subprocess.Popen(
         [sys.executable, "-c", SLOW, "compare", task.source],

@@ -32,6 +32,7 @@ def flippable(mesh):
 
 @pytest.mark.parametrize("name", MESHES)
 @pytest.mark.parametrize("energy", ENERGIES)
+@pytest.mark.slow
 def test_cost_reduction_is_the_brute_force_difference(energy, name):
     vertices, faces = MESHES[name]
     mesh = build(vertices, faces)

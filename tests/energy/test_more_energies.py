@@ -71,6 +71,7 @@ def corners_at(mesh, h):
 
 @each_mesh
 @each_energy
+@pytest.mark.slow
 def test_cost_reduction_is_the_brute_force_difference(energy, name):
     vertices, faces = MESHES[name]
     mesh = build(vertices, faces)

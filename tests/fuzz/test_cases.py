@@ -19,6 +19,7 @@ def check(seed, part, cases):
 
 
 @pytest.mark.parametrize("part", range(PARTS))
+@pytest.mark.slow
 def test_every_promise_is_kept(part):
     check(0, part, CASES)
 

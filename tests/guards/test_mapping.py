@@ -90,6 +90,7 @@ def test_the_rule(uv, fine):
     assert is_refused(uv) != fine
 
 
+@pytest.mark.slow
 def test_every_quad_of_a_small_grid_is_judged_as_by_fractions():
     """Flat and turned over triangles, and corners at one point, are all among them."""
     rng = np.random.default_rng(0)

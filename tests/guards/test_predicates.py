@@ -44,6 +44,7 @@ def sign(number):
 
 
 @pytest.mark.parametrize("name", FAMILIES)
+@pytest.mark.slow
 def test_signs_are_those_of_fractions(name):
     rng = np.random.default_rng(0)
     seen = set()

@@ -56,6 +56,7 @@ def round_a_vertex(rng, gap, bend):
 
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3, 1e6])
 @pytest.mark.parametrize("bend", [0.0, 1e-12, 1e-6, 0.1])
+@pytest.mark.slow
 def test_what_is_seen_apart_neither_cuts_nor_counts(bend, scale):
     rng = np.random.default_rng(2)
     corners = np.array([(0, 1, 2), (0, 3, 4)], np.int32)
@@ -99,6 +100,7 @@ def mirrored(rng):
     return np.vstack([np.zeros(3), size * flat]) @ turned + rng.uniform(-1.0, 1.0, 3)
 
 
+@pytest.mark.slow
 def test_what_only_rounding_brings_together_is_not_seen_apart():
     rng = np.random.default_rng(4)
     area_scale, by_rounding = 4.0**25, 0
@@ -112,6 +114,7 @@ def test_what_only_rounding_brings_together_is_not_seen_apart():
     assert by_rounding > 0
 
 
+@pytest.mark.slow
 def test_nearly_all_neighbours_round_a_vertex_are_seen_apart():
     vertices, corners = meshes.bumpy_sphere(300)
     scaled, exponent = to_unit_scale(vertices, corners)

@@ -65,6 +65,7 @@ def shuffle(mesh, space, count, rng, number=0):
 
 @pytest.mark.heavy
 @pytest.mark.parametrize("name", MESHES)
+@pytest.mark.slow
 def test_the_index_finds_what_all_pairs_tell(name):
     mesh, exponent = unit_mesh(*MESHES[name]())
     space = spaces.space_of(mesh, exponent)
@@ -84,6 +85,7 @@ def test_the_index_finds_what_all_pairs_tell(name):
 
 @pytest.mark.heavy
 @pytest.mark.parametrize("name", MESHES)
+@pytest.mark.slow
 def test_cutting_faces_are_those_of_clipping(name):
     vertices, faces = MESHES[name]()
     mesh = build(np.asarray(vertices, float), faces)
@@ -167,6 +169,7 @@ def test_of_faces_that_changed_in_a_round_those_are_found_that_all_pairs_tell(na
 
 @pytest.mark.heavy
 @pytest.mark.parametrize("name", MESHES)
+@pytest.mark.slow
 def test_rivals_are_those_that_all_pairs_tell(name):
     """Flips of a round: none has a face of another one's, but their new faces may cut."""
     mesh, exponent = unit_mesh(*MESHES[name]())
@@ -272,6 +275,7 @@ def _flipped(mesh, space, h):
 
 
 @pytest.mark.parametrize("kind", [spaces.no_space, lambda: spaces.without(spaces.no_space())])
+@pytest.mark.slow
 def test_kernels_refuse_nothing_without_a_guard(kind):
     """Of the second kind they could not even be compiled with the guard: it lacks the arrays."""
     mesh, _ = unit_mesh(*meshes.crumpled(4))

@@ -195,6 +195,7 @@ print(triangle_shapes(np.eye(3), np.array([[0, 1, 2]])))
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="terminals of Unix")
+@pytest.mark.slow
 def test_a_cold_cache_is_told_of_and_a_warm_one_is_not(tmp_path):
     def told():
         import pty

@@ -53,6 +53,7 @@ def test_kernels_for_python_have_no_way_in_for_c():
 
 
 @pytest.mark.heavy
+@pytest.mark.slow
 def test_without_a_place_for_a_cache_kernels_are_compiled_all_the_same(tmp_path):
     """Files in place of all folders that Numba tries: also root cannot write there."""
     source = pathlib.Path(meshlab_willmore.__file__).parent

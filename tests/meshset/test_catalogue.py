@@ -104,6 +104,7 @@ def test_choices_are_those_that_pymeshlab_names():
 
 @recorded_here
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="needs child processes")
+@pytest.mark.slow
 def test_all_names_are_known_and_a_sample_does_what_is_said():
     sample = sorted(NATIVES)[::7]
     command = [sys.executable, "-m", "tests.meshset.record_native_filters", "--check", *sample]
@@ -416,6 +417,7 @@ def test_what_a_plugin_prints_when_it_is_asked_is_not_seen(capfd, monkeypatch):
     assert capfd.readouterr() == ("", "")
 
 
+@pytest.mark.slow
 def test_the_file_is_not_read_before_it_is_needed():
     code = (
         "import meshlab_willmore\n"

@@ -255,6 +255,7 @@ def seams_of(ms):
 
 
 @pytest.mark.heavy
+@pytest.mark.slow
 def test_seams_stay(textured):
     before = seams_of(textured)
     assert len(before) > 100
@@ -612,6 +613,7 @@ def test_these_are_all_samples_with_faces():
 
 @pytest.mark.heavy
 @pytest.mark.parametrize("name", REAL)
+@pytest.mark.slow
 def test_real_meshes_keep_everything(name, tmp_path):
     ms = pymeshlab.MeshSet()
     ms.load_new_mesh(str(SAMPLES / name))

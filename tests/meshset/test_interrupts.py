@@ -127,6 +127,7 @@ except KeyboardInterrupt:
 @pytest.mark.heavy
 @pytest.mark.skipif(os.name == "nt", reason="no signals to send")
 @pytest.mark.parametrize("search", ["parallel greedy", "annealing"])
+@pytest.mark.slow
 def test_ctrl_c_stops_a_long_run_and_changes_nothing(search, request):
     root = str(request.config.rootpath)
     run = subprocess.run(

@@ -11,6 +11,7 @@ from tests import meshes
 from tests.meshset.conftest import FLIP, SAMPLES, random_transform, set_of
 
 
+@pytest.mark.slow
 def test_sets_are_told_apart_by_identity():
     @dataclasses.dataclass
     class Job(pymeshlab.MeshSet):

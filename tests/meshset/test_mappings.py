@@ -97,6 +97,7 @@ def test_edges_between_two_textures_are_fixed_without_a_seam_in_the_coordinates(
         {"energy": "mean curvature", "search": "variable depth", "depth": 3, "breadth": 1},
     ],
 )
+@pytest.mark.slow
 def test_the_mapping_of_a_real_mesh_is_kept(options):
     ms = pymeshlab.MeshSet()
     ms.load_new_mesh(str(SAMPLES / "bunny10k_textured.obj"))

@@ -142,6 +142,7 @@ print("alive")
 """
 
 
+@pytest.mark.slow
 def test_a_native_failure_in_a_set_that_is_gone_does_no_harm(request):
     root = str(request.config.rootpath)
     run = subprocess.run(

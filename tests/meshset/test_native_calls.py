@@ -195,6 +195,7 @@ def step(both):
 
 
 @pytest.mark.parametrize("seed", range(25))
+@pytest.mark.slow
 def test_ids_lead_to_the_same_meshes_as_in_a_set_without_flips(seed):
     both = Both(seed)
     done = []

@@ -18,6 +18,7 @@ def many_meshes(ms, count=300):
         ms.add_mesh(pymeshlab.Mesh(*meshes.sphere_hull(20 + n % 30)), set_as_current=False)
 
 
+@pytest.mark.slow
 def test_a_held_mesh_still_reads_its_own_data(bumpy):
     held = bumpy.current_mesh()
     vertices, faces = held.vertex_matrix(), held.face_matrix()
@@ -30,6 +31,7 @@ def test_a_held_mesh_still_reads_its_own_data(bumpy):
     np.testing.assert_array_equal(held.face_matrix(), faces)
 
 
+@pytest.mark.slow
 def test_every_reference_counts_also_one_in_a_container(bumpy):
     faces = bumpy.current_mesh().face_matrix()
     keep = {"mesh": [bumpy.mesh(0)]}
@@ -165,6 +167,7 @@ def test_clear_forgets_parked_layers_with_all_others(bumpy):
     assert native.ids(bumpy) == [0, 1]
 
 
+@pytest.mark.slow
 def test_deleting_hidden_layers_spares_parked_ones(bumpy):
     held = bumpy.current_mesh()
     faces = held.face_matrix()
@@ -253,6 +256,7 @@ def test_a_deleted_layer_does_not_hand_over_to_a_parked_one(bumpy):
 
 
 @pytest.mark.parametrize("more", [(), ("apply_coord_taubin_smoothing",)])
+@pytest.mark.slow
 def test_a_loop_over_the_meshes_visits_each_once(more):
     ms = pymeshlab.MeshSet()
     for seed in range(3):

@@ -34,6 +34,7 @@ if __name__ == "__main__":
 
 
 @pytest.mark.heavy
+@pytest.mark.slow
 def test_processes_that_were_forked_or_spawned_find_the_same(tmp_path, request):
     script = tmp_path / "script.py"
     script.write_text(f"import sys\nsys.path.insert(0, {str(request.config.rootpath)!r})\n{SCRIPT}")

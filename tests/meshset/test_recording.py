@@ -240,6 +240,7 @@ ms.save_filter_script(sys.argv[1])
 """
 
 
+@pytest.mark.slow
 def test_steps_from_before_the_import_come_first(tmp_path):
     path = tmp_path / "script.mlx"
     subprocess.run([sys.executable, "-c", SEEN_LATE, str(path)], check=True)
@@ -415,6 +416,7 @@ print(ms.mesh_number())
     ],
     ids=["sample", "malformed parameter", "unknown filter", "truncated", "empty"],
 )
+@pytest.mark.slow
 def test_scripts_without_our_filters_behave_as_before(text, tmp_path):
     script, saved = tmp_path / "script.mlx", tmp_path / "saved.mlx"
     script.write_text(text)

@@ -241,11 +241,13 @@ def on_a_terminal(args, folder):
 
 
 @pytest.mark.parametrize("run", [in_a_pipe, on_a_terminal])
+@pytest.mark.slow
 def test_what_python_and_pymeshlab_print_comes_in_order(run, tmp_path):
     assert re.search(IN_ORDER, run([sys.executable, "-c", PRINTING], tmp_path))
 
 
 @pytest.mark.parametrize("how", ["sys.stdout = None", "sys.stdout.close()"])
+@pytest.mark.slow
 def test_a_program_without_standard_output_can_print(how):
     code = f"""
 import sys, pymeshlab, meshlab_willmore
@@ -391,6 +393,7 @@ assert not hasattr(ms, "meshing_edge_flip_by_willmore_optimization")
 """
 
 
+@pytest.mark.slow
 def test_a_second_import_after_a_reload_takes_over():
     run = subprocess.run([sys.executable, "-c", AGAIN], capture_output=True, text=True)
     assert (run.returncode, run.stdout, run.stderr) == (0, "", "")
@@ -425,6 +428,7 @@ def import_without(text):
     )
 
 
+@pytest.mark.slow
 def test_without_a_system_library_arrays_work_and_a_warning_brings_the_cure():
     text = "libGL.so.1: cannot open shared object file: No such file or directory"
     run = import_without(text)
@@ -459,11 +463,13 @@ except AttributeError as error:
 """
 
 
+@pytest.mark.slow
 def test_importing_registers_and_loads_no_kernels():
     run = subprocess.run([sys.executable, "-c", IMPORTED], capture_output=True, text=True)
     assert (run.returncode, run.stdout, run.stderr) == (0, "", "")
 
 
+@pytest.mark.slow
 def test_no_warning_of_numbas_threading_layers_reaches_the_user():
     code = (
         "import pymeshlab, meshlab_willmore\n"

@@ -192,6 +192,7 @@ def test_every_type_is_tested():
 
 
 @given(scripts.params())
+@pytest.mark.slow
 def test_the_attributes_stand_in_one_order_and_read_back(param):
     written = rich.attributes(param)
     known = ["name", "type", *rich.fields(param.type), *dict(param.details)]

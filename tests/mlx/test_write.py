@@ -22,11 +22,13 @@ def exactly(steps):
 
 
 @given(scripts.steps())
+@pytest.mark.slow
 def test_any_steps_survive_writing_and_reading(steps):
     assert exactly(read_bytes(to_xml(steps).encode(), "s")) == exactly(steps)
 
 
 @given(scripts.steps())
+@pytest.mark.slow
 def test_writing_again_gives_the_same_text(steps):
     text = to_xml(steps)
     assert to_xml(read_bytes(text.encode(), "s")) == text

@@ -64,6 +64,7 @@ def walk_slowly(mesh, rules, schedule, loss):
 
 
 @pytest.mark.parametrize("name", ["closed", "boundary", "cube", "fin", "locked", "moebius band"])
+@pytest.mark.slow
 def test_the_walk_and_its_best_state_are_those_of_the_slow_one(name):
     rules = rules_for("willmore")
     mesh = MESHES[name]()
@@ -252,6 +253,7 @@ def test_the_best_of_all_triangulations_is_found(arrays, count):
 
 
 @pytest.mark.heavy
+@pytest.mark.slow
 def test_the_torus_comes_near_the_reference_figure():
     vertices, faces = meshes.torus(2000, 0.3, 8)
     for seed in (0, 1):

@@ -83,6 +83,7 @@ def flips_by_scanning(mesh, rules, cost_reduction, is_blocked=lambda mesh, h: Fa
 @pytest.mark.parametrize("monotone", [True, False])
 @pytest.mark.parametrize("fold", [GUARDED, FREE])
 @pytest.mark.parametrize("energy", KERNELS)
+@pytest.mark.slow
 def test_the_queue_finds_what_a_scan_finds(energy, fold, monotone, name):
     kernel, cost_reduction = KERNELS[energy]
     rules = Rules(fold, monotone, MANY)
@@ -112,6 +113,7 @@ CROWDED = {
 @pytest.mark.parametrize("name", CROWDED)
 @pytest.mark.parametrize("monotone", [True, False])
 @pytest.mark.parametrize("energy", KERNELS)
+@pytest.mark.slow
 def test_blocked_edges_are_tried_again_once_a_scan_would(energy, monotone, name):
     kernel, cost_reduction = KERNELS[energy]
     rules = Rules(FREE, monotone, MANY)
@@ -266,6 +268,7 @@ def test_no_half_edge_is_left_out_where_a_slice_of_the_scoring_ends(place):
 
 
 @pytest.mark.heavy
+@pytest.mark.slow
 def test_literal_descent_without_memory_does_go_round_in_circles():
     mesh = build(*meshes.torus(200, None, 1))
     seen = set()

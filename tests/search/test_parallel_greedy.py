@@ -109,6 +109,7 @@ def rounds_by_scanning(mesh, rules, energy):
 @pytest.mark.parametrize("monotone", [True, False])
 @pytest.mark.parametrize("fold", [GUARDED, FREE])
 @pytest.mark.parametrize("energy", [e for e in KERNELS if not KINDS[e].is_wide])
+@pytest.mark.slow
 def test_the_rounds_are_those_of_a_scan(energy, fold, monotone, name):
     rules = rules_for(energy, fold)
     if not rules.is_potential:
@@ -164,6 +165,7 @@ def flip_all(board, edges):
 
 @pytest.mark.parametrize("energy", ENERGIES)
 @pytest.mark.parametrize("seed", range(3))
+@pytest.mark.slow
 def test_the_order_of_the_flips_of_a_round_does_not_matter(energy, seed):
     mesh = build(*meshes.bumpy_sphere(120, seed, bump=0.7))
     board, count = scored(mesh, rules_for(energy, FREE), energy)
@@ -297,6 +299,7 @@ def test_maxflips_stops_on_the_way(energy, limit):
 
 @HEAVY
 @pytest.mark.parametrize("energy", KERNELS)
+@pytest.mark.slow
 def test_with_the_guard_edges_that_would_cut_are_tried_again(energy):
     mesh = build(*meshes.bumpy_sphere(150, bump=0.95))
     space = space_of(mesh)

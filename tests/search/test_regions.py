@@ -139,6 +139,7 @@ def searched(mesh, energy, threads=None, space=None):
 
 @pytest.mark.heavy
 @pytest.mark.parametrize("energy", ["virtual willmore", "willmore", "delaunay"])
+@pytest.mark.slow
 def test_chains_in_regions_do_not_depend_on_threads_and_leave_none(energy, monkeypatch):
     vertices, faces = meshes.torus(600, None, 1)
     whole = build(vertices, faces)

@@ -137,6 +137,7 @@ def test_the_best_of_all_triangulations_is_found():
         pytest.param((2000, None, 1), (None, 21, 22), 206.4, marks=pytest.mark.nightly),
     ],
 )
+@pytest.mark.slow
 def test_the_torus_ends_equally_well_whatever_the_start(arguments, seeds, most):
     """From the mesh as it is, and after two random flips an edge."""
     vertices, faces = meshes.torus(*arguments)

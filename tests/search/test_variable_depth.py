@@ -173,6 +173,7 @@ def search(energy, mesh, rules, reach):
 @pytest.mark.parametrize("fold", [GUARDED, FREE])
 @pytest.mark.parametrize("reach", REACHES)
 @pytest.mark.parametrize("energy", ENERGIES)
+@pytest.mark.slow
 def test_the_search_finds_what_a_scan_finds(energy, reach, fold, name):
     """Also that to try again the edges near a change is as good as to try all again."""
     _, descent, rank, judge = ENERGIES[energy]
@@ -201,6 +202,7 @@ CROWDED = {
 @pytest.mark.heavy
 @pytest.mark.parametrize("name", CROWDED)
 @pytest.mark.parametrize("reach", [Reach(2, 1), Reach(3, 2)])
+@pytest.mark.slow
 def test_chains_blocked_by_cuts_are_tried_again_once_a_scan_would(reach, name):
     kernel, descent, rank, judge = ENERGIES["willmore"]
     rules = Rules(FREE)
@@ -246,6 +248,7 @@ def new_task(mesh, rules, reach):
 @pytest.mark.heavy
 @pytest.mark.parametrize("name", MESHES)
 @pytest.mark.parametrize("reach", [Reach(3, 1), Reach(5, 3)])
+@pytest.mark.slow
 def test_what_a_chain_tries_leaves_no_trace(reach, name):
     """Undone flips give back all arrays bit for bit, also the corners, which a flip merges."""
     mesh = MESHES[name]()
@@ -321,6 +324,7 @@ def test_chains_of_one_flip_are_plain_descent(name):
 @pytest.mark.heavy
 @pytest.mark.parametrize("name", MESHES)
 @pytest.mark.parametrize("energy", ENERGIES)
+@pytest.mark.slow
 def test_deeper_is_never_worse_than_greedy_and_a_minimum(energy, name):
     rules, reach = Rules(GUARDED), Reach(4, 3)
     greedily, mesh = MESHES[name](), MESHES[name]()
@@ -384,6 +388,7 @@ def length(mesh):
 
 @pytest.mark.heavy
 @pytest.mark.parametrize("monotone", [True, False])
+@pytest.mark.slow
 def test_any_energy_will_do_and_the_monotone_rule_watches_the_true_one(monotone):
     """Chain by chain: the length falls, and the Willmore energy never rises under the rule."""
     rules = Rules(GUARDED, monotone)
@@ -429,6 +434,7 @@ def test_every_flip_of_a_chain_passes_the_fold_guard():
 
 
 @pytest.mark.heavy
+@pytest.mark.slow
 def test_the_torus_ends_in_the_same_triangulation_whatever_the_start():
     """Two random flips an edge, and the energy comes down to the digit of the reference figure."""
     vertices, faces = meshes.torus(2000, 0.3, 8)
@@ -455,6 +461,7 @@ def _scramble(mesh, count, rng):
 
 
 @pytest.mark.heavy
+@pytest.mark.slow
 def test_the_kernel_comes_back_often_and_two_runs_are_equal():
     def counting(task, progress):
         calls.append(progress)

@@ -107,6 +107,7 @@ print(len(greedy_virtual_at.signatures), sum(hits.values()), sum(misses.values()
 
 
 @pytest.mark.heavy
+@pytest.mark.slow
 def test_one_compilation_serves_all_places_and_later_processes():
     """In the cache of all tests it may be there already; a second process finds it."""
     command = [sys.executable, "-W", "error", "-c", SCRIPT]

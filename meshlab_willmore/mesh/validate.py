@@ -51,7 +51,8 @@ def _check_vertices(vertices):
     vertices = _check_rows(vertices, "vertices", 3)
     if len(vertices) > MOST_VERTICES:
         raise ValueError(f"{len(vertices)} vertices are too many, at most {MOST_VERTICES} work")
-    with np.errstate(over="ignore"):
+    # A float32 may be a signalling NaN, such as PyMeshLab leaves where nothing was set.
+    with np.errstate(over="ignore", invalid="ignore"):
         converted = np.ascontiguousarray(vertices, np.float64)
     finite = np.isfinite(converted)
     if not finite.all():
@@ -130,7 +131,7 @@ def check_wedge_uv(uv, faces):
         raise TypeError(f"wedge_uv must be real numbers, not {uv.dtype}")
     if uv.ndim != 3 or uv.shape[:2] != (faces, 3) or uv.shape[2] == 0 or uv.shape[2] % 2:
         raise ValueError(f"wedge_uv must have the shape ({faces}, 3, 2), not {uv.shape}")
-    with np.errstate(over="ignore"):
+    with np.errstate(over="ignore", invalid="ignore"):
         return np.ascontiguousarray(uv, np.float64)
 
 

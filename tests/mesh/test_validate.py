@@ -166,3 +166,13 @@ def test_unit_scale_does_not_look_at_vertices_of_no_face():
     scaled, _ = validate.to_unit_scale(far, FACES)
     assert scaled.max() >= 0.5
     assert (scaled[-1] == 0.0).all()
+
+
+def test_a_number_that_was_never_set_is_no_warning():
+    """PyMeshLab leaves any bits in texture coordinates that were not given, also these."""
+    signalling = np.full((1, 3, 2), np.uint32(0x7FA00000)).view(np.float32)
+    assert np.isnan(validate.check_wedge_uv(signalling, 1)).all()
+    vertices = np.array(VERTICES, np.float32)
+    vertices[2] = signalling[0, 0, 0]
+    with pytest.raises(ValueError, match="vertex 2 has a coordinate that is not finite"):
+        validate.check_mesh(vertices, FACES)

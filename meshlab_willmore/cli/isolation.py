@@ -19,10 +19,13 @@ from pathlib import Path
 # Some files that end early make PyMeshLab read or reserve memory without end.
 _SECONDS = 20.0
 _SECONDS_PER_BYTE = 1e-6
+# By so much later than the parent would, the process ends itself.
+_LONGER = 1.0
 
 _FINE = b"+"
 _FAILED = b"-"
 _CHUNK = 1 << 16
+_PROC = Path("/proc")
 
 
 def check(path: Path, load: Callable[[], None], why: Callable[[Exception], str]) -> None:
@@ -42,6 +45,7 @@ def check(path: Path, load: Callable[[], None], why: Callable[[Exception], str])
     """
     if sys.platform != "linux":
         return
+    seconds = _SECONDS + _SECONDS_PER_BYTE * path.stat().st_size
     end, start = os.pipe()
     with warnings.catch_warnings():
         # Threads of others don't matter to a child that loads and is gone.
@@ -49,10 +53,9 @@ def check(path: Path, load: Callable[[], None], why: Callable[[Exception], str])
         child = os.fork()
     if child == 0:
         os.close(end)
-        _answer(start, load, why)
+        _answer(start, load, why, seconds)
     os.close(start)
     try:
-        seconds = _SECONDS + _SECONDS_PER_BYTE * path.stat().st_size
         answer = _read(end, time.monotonic() + seconds)
     finally:
         os.close(end)
@@ -84,10 +87,15 @@ def _read(end: int, until: float) -> bytes | None:
 # --- in the process ----------------------------------------------------------------------------
 
 
-def _answer(start: int, load: Callable[[], None], why: Callable[[Exception], str]) -> None:
+def _answer(
+    start: int, load: Callable[[], None], why: Callable[[Exception], str], seconds: float
+) -> None:
     """Load, say how that went, and end."""
     try:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
+        # A parent that was killed ends nobody any more.
+        signal.signal(signal.SIGALRM, signal.SIG_DFL)
+        signal.setitimer(signal.ITIMER_REAL, seconds + _LONGER)
         faulthandler.disable()
         _limit_memory()
         load()
@@ -103,10 +111,20 @@ def _limit_memory() -> None:
     import resource
 
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    pages = int(Path("/proc/self/statm").read_text().split()[0])
-    lines = Path("/proc/meminfo").read_text().splitlines()
-    free = next(int(line.split()[1]) for line in lines if line.startswith("MemAvailable:"))
-    wanted = pages * resource.getpagesize() + free * 1024
+    wanted = _memory()
+    if wanted is None:
+        return
     soft, hard = resource.getrlimit(resource.RLIMIT_AS)
     limits = [limit for limit in (soft, hard) if limit != resource.RLIM_INFINITY]
     resource.setrlimit(resource.RLIMIT_AS, (min([wanted, *limits]), hard))
+
+
+def _memory() -> int | None:
+    """How many bytes this process has and could have; None where no /proc tells, as in a chroot."""
+    try:
+        pages = int((_PROC / "self/statm").read_text().split()[0])
+        lines = (_PROC / "meminfo").read_text().splitlines()
+    except OSError:
+        return None
+    free = [int(line.split()[1]) for line in lines if line.startswith("MemAvailable:")]
+    return pages * os.sysconf("SC_PAGE_SIZE") + free[0] * 1024 if free else None

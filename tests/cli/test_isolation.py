@@ -50,6 +50,20 @@ def test_memory_has_a_limit(file):
         isolation.check(file, lambda: bytearray(1 << 46), lambda error: type(error).__name__)
 
 
+def test_without_proc_files_are_loaded_all_the_same(file, tmp_path, monkeypatch):
+    monkeypatch.setattr(isolation, "_PROC", tmp_path / "not mounted")
+    isolation.check(file, lambda: None, str)
+
+
+def test_a_process_whose_parent_is_gone_ends_itself(file, monkeypatch):
+    monkeypatch.setattr(isolation, "_SECONDS", 0.0)
+    monkeypatch.setattr(isolation, "_LONGER", 0.05)
+    # As a parent that was killed: it waits for an answer, and ends nobody.
+    monkeypatch.setattr(isolation, "_read", lambda end, until: os.read(end, 1))
+    with pytest.raises(OSError, match=r"crashes on it \(SIGALRM\)"):
+        isolation.check(file, lambda: time.sleep(1000), str)
+
+
 def test_no_process_and_no_descriptor_is_left(file):
     before = set(os.listdir("/proc/self/fd"))
     isolation.check(file, lambda: None, str)

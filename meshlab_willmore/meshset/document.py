@@ -9,9 +9,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+import pymeshlab
 from pymeshlab import MeshSet
 
-from . import native, numbering
+from . import layers, native, numbering
 from .keywords import keyword_of
 from .probe import KnownParam
 
@@ -81,9 +82,14 @@ def play(ms: MeshSet, name: str, given: Mapping[str, Any]) -> dict[str, Any]:
     -------
     dict
         Empty, as of a filter that returns nothing.
+
+    Raises
+    ------
+    pymeshlab.PyMeshLabException
+        If there is no layer of a given id; nothing is changed.
     """
     if name == _CURRENT.name and "mesh" in given:
-        native.make_current(ms, numbering.physical_id(ms, given["mesh"]))
+        native.make_current(ms, _physical_id(ms, given["mesh"]))
     if name == _VISIBILITY.name:
         for mesh_id in _chosen(ms, given):
             native.show(ms, mesh_id, given.get("ismeshvisible", True))
@@ -95,5 +101,14 @@ def _chosen(ms: MeshSet, given: Mapping[str, Any]) -> list[int]:
     part = given.get("lname", "")
     if part:
         return [native.id_of(mesh) for mesh in ms if part in mesh.label()]
-    chosen = numbering.physical_id(ms, given["layer"]) if "layer" in given else None
-    return [native.id_of(native.current_mesh(ms)) if chosen is None else chosen]
+    if "layer" in given:
+        return [_physical_id(ms, given["layer"])]
+    return [native.id_of(native.current_mesh(ms))]
+
+
+def _physical_id(ms: MeshSet, mesh_id: int) -> int:
+    """The physical id for a logical one; PyMeshLab would crash in the next filter without it."""
+    physical = numbering.physical_id(ms, mesh_id)
+    if physical is None:
+        raise pymeshlab.PyMeshLabException(layers.no_such_id(ms, mesh_id))
+    return physical

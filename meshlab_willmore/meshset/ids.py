@@ -23,7 +23,7 @@ def _wrap_iter(_: Callable) -> Callable:
     """
 
     def iterate(self: MeshSet) -> Iterator[pymeshlab.Mesh]:
-        there = [numbering.logical_id(self, i) for i in layers.visible_ids(self)]
+        there = layers.shown_ids(self)
         now = (numbering.physical_id(self, mesh_id) for mesh_id in there)
         return (_shown(self, native.mesh(self, i)) for i in now if i is not None)
 

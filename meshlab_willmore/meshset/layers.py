@@ -187,6 +187,17 @@ def visible_ids(ms: MeshSet) -> list[int]:
     return sorted(there, key=lambda i: numbering.logical_id(ms, i))
 
 
+def shown_ids(ms: MeshSet) -> list[int]:
+    """The logical ids of the layers that are not parked, ascending."""
+    return [numbering.logical_id(ms, mesh_id) for mesh_id in visible_ids(ms)]
+
+
+def no_such_id(ms: MeshSet, mesh_id: int) -> str:
+    """What to say of a logical id that no layer has."""
+    there = ", ".join(map(str, shown_ids(ms))) or "none"
+    return f"there is no mesh {mesh_id} (there are: {there})"
+
+
 def sweep(ms: MeshSet) -> None:
     """Delete the parked layers of `ms` that nobody holds any more."""
     if not _parked.get(ms):

@@ -87,10 +87,9 @@ def physical(ms: MeshSet, known: Known, given: dict[str, Any]) -> dict[str, Any]
     for keyword in _id_keywords(known, given):
         mesh_id = numbering.physical_of(ms, given[keyword])
         if mesh_id is None:
-            there = (numbering.logical_id(ms, i) for i in layers.visible_ids(ms))
             raise pymeshlab.PyMeshLabException(
-                f"Failed to apply filter: {known.name}\nDetails: parameter {keyword!r}: there is "
-                f"no mesh {given[keyword]} (there are: {', '.join(map(str, there)) or 'none'})"
+                f"Failed to apply filter: {known.name}\nDetails: parameter {keyword!r}: "
+                f"{layers.no_such_id(ms, given[keyword])}"
             )
         ids[keyword] = mesh_id
     return {**given, **ids}

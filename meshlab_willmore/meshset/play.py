@@ -97,6 +97,9 @@ def _play_one(ms: MeshSet, call: Call, source: str) -> Played:
         elif call.known.ours:
             returned = apply(ms, BY_NAME[name], values_of(ms, BY_NAME[name], given))
         else:
+            if call.known.needs_mesh and native.ids(ms):
+                # Where none is current, this raises; PyMeshLab's filters would crash.
+                native.current_mesh(ms)
             given = _without_defaults(ms, name, given)
             with native_calls.prepared(ms, name, given) as completed:
                 returned = native.apply(ms, name, **completed)

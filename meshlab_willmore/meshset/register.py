@@ -222,9 +222,8 @@ def _wrap_apply_filter_script(wrapped: Callable) -> Callable:
                 wrapped(self)
             return
         with _as_pymeshlab_error():
-            there = [numbering.logical_id(self, i) for i in layers.visible_ids(self)]
             source = recording.source_of(self)
-            calls = resolve(recording.steps_of(self), source, there)
+            calls = resolve(recording.steps_of(self), source, layers.shown_ids(self))
         play(self, calls, source)
 
     return apply_filter_script

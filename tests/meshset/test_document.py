@@ -81,6 +81,25 @@ def test_a_layer_that_a_step_makes_can_be_chosen(cubes):
     assert cubes.current_mesh_id() == 3
 
 
+@pytest.mark.parametrize("chosen", [step(CHOOSE, mesh=7), step(SHOW, layer=7)])
+def test_a_layer_that_no_step_has_made_is_named_and_no_other_taken(cubes, chosen):
+    # A check can't know how many layers the first step makes.
+    steps = [step("Box/Cube"), chosen, step("Laplacian Smooth")]
+    with pytest.raises(pymeshlab.PyMeshLabException) as caught:
+        script.run(steps, cubes)
+    assert str(caught.value).endswith("there is no mesh 7 (there are: 0, 1, 2, 3)")
+    assert cubes.current_mesh_id() == 3
+    assert visible(cubes) == [True] * 4
+
+
+def test_native_steps_do_not_crash_where_no_mesh_is_current(cubes):
+    cubes.set_current_mesh(7)
+    with pytest.raises(pymeshlab.PyMeshLabException, match="no current Mesh"):
+        script.run([step("Laplacian Smooth")], cubes)
+    script.run([step(CHOOSE, mesh=1), step("Laplacian Smooth")], cubes)
+    assert cubes.current_mesh_id() == 1
+
+
 def test_names_of_steps_are_no_names_of_filters():
     natives = set(pymeshlab.filter_list())
     for item in document.STEPS:

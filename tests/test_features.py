@@ -127,6 +127,20 @@ def test_feature_edges_stay_and_so_does_the_shape(search, energy, part):
     assert wanted <= reference.edge_set(folded.faces)
 
 
+@pytest.mark.parametrize(("height", "is_kept"), [(4e-6, False), (5e-6, True)])
+def test_a_sharp_edge_goes_where_one_of_its_faces_is_a_sliver(height, is_kept):
+    """It is bent by 75 degrees; the shape of the face above it is 2.3 times the height."""
+    bend = np.radians(75.0)
+    above = 0.5, height * np.cos(bend), height * np.sin(bend)
+    vertices = [(0, 0, 0), (1, 0, 0), above, (0.5, -1, 0), (-1, -0.5, 0), (2, -0.5, 0)]
+    faces = [(0, 1, 2), (1, 0, 3), (3, 0, 4), (1, 3, 5)]
+    for featuredeg in (0.0, 70.0):
+        result = optimize_flips(vertices, faces, energy="delaunay", featuredeg=featuredeg)
+        assert ((0, 1) in reference.edge_set(result.faces)) == is_kept
+    free = optimize_flips(vertices, faces, energy="delaunay")
+    assert (0, 1) not in reference.edge_set(free.faces)
+
+
 def test_without_a_limit_features_go():
     """Else the test above would say nothing."""
     vertices, faces = PARTS["block"]

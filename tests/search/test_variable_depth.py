@@ -272,6 +272,20 @@ def test_what_a_chain_tries_leaves_no_trace(reach, name):
     assert worked > 3 * len(mesh.origin)
 
 
+def test_the_chains_from_one_edge_are_bounded():
+    """However deep and broad they may be, and on a mesh so small that they go round and round."""
+    mesh = build(*meshes.bumpy_sphere(20, seed=2))
+    before = states.copy_of(mesh)
+    task = new_task(mesh, Rules(FREE), Reach(30, 12))
+    best, work = chains.find_chain(task, 0, willmore.cost_reduction, None)
+    assert best[0] == 0
+    # The last step that was begun is scored as a whole.
+    assert chains.MOST_WORK <= work < chains.MOST_WORK + chains.RING
+    # What was tried last is taken back as ever.
+    for changed, kept in zip(mesh, before, strict=True):
+        np.testing.assert_array_equal(changed, kept)
+
+
 @pytest.mark.parametrize("name", ["closed", "boundary", "shuffled"])
 def test_the_ring_is_where_cost_reductions_change(name):
     mesh = MESHES[name]()

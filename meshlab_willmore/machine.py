@@ -37,8 +37,11 @@ _LITTLE = 65536
 # Between what is wrong and the command that mends it.
 MEND = "; mend it with: "
 
-
-_BROKEN_LIBRARY = r"lib\S+\.so\S*: (cannot open shared object|file too short|invalid ELF header)"
+# The packages with libGL.so.1 and libOpenGL.so.0, which PyMeshLab needs.
+DEBIAN_PACKAGES = "apt-get install libgl1 libopengl0"
+_BROKEN_LIBRARY = re.compile(
+    r"(lib[\w.+-]+\.so[\w.]*): (?:cannot open shared|file too short|invalid ELF)"
+)
 _NOT_LOADED = "PyMeshLab could not be loaded: "
 
 
@@ -74,14 +77,19 @@ def join(problems: Iterable[Problem]) -> Problem:
     return Problem(" and ".join(texts), "; ".join(cures))
 
 
+def broken_libraries(text: str) -> list[str]:
+    """The libraries of the system that can't be loaded, by what the loader says of them."""
+    return sorted(set(_BROKEN_LIBRARY.findall(text)))
+
+
 def without_library(error: ImportError) -> str | None:
     """What to say of an import that failed at a library of the system; None if it did not."""
     text = str(error)
-    if text.startswith(_NOT_LOADED) or not re.search(_BROKEN_LIBRARY, text):
+    if text.startswith(_NOT_LOADED) or not broken_libraries(text):
         return None
     return (
         f"{_NOT_LOADED}{text}. On Debian and Ubuntu its system libraries come with: "
-        "apt-get install libgl1 libopengl0"
+        f"{DEBIAN_PACKAGES}"
     )
 
 

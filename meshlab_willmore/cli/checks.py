@@ -23,7 +23,7 @@ LIBRARIES = ("pymeshlab", "numpy", "numba")
 
 # The packages with libGL.so.1 and libOpenGL.so.0, by the program that installs them.
 INSTALLERS = {
-    "apt-get": "apt-get install libgl1 libopengl0",
+    "apt-get": machine.DEBIAN_PACKAGES,
     "dnf": "dnf install mesa-libGL libglvnd-opengl",
 }
 REINSTALL = f"{Path(sys.executable).name} -m pip install --force-reinstall meshlab-willmore"
@@ -92,7 +92,7 @@ def pymeshlab() -> Finding:
         return Finding("PyMeshLab", False, *_import_problem(answer.printed))
     plugins = sorted(set(re.findall(r"^\s*(?:lib)?(\w+)\.(?:so|dll|dylib):", answer.printed, re.M)))
     if plugins:
-        missing = _missing_libraries(answer.printed)
+        missing = machine.broken_libraries(answer.printed)
         because = f" ({', '.join(missing)} can't be loaded)" if missing else ""
         text = f"plugins that did not load: {', '.join(plugins)}{because}"
         return Finding("PyMeshLab", False, text, _system_libraries())
@@ -100,7 +100,7 @@ def pymeshlab() -> Finding:
 
 
 def _import_problem(printed: str) -> tuple[str, str]:
-    missing = _missing_libraries(printed)
+    missing = machine.broken_libraries(printed)
     if missing:
         return f"can't be loaded: {', '.join(missing)} is missing or broken", _system_libraries()
     lines = printed.splitlines() or ["it ended without a word"]
@@ -113,20 +113,13 @@ def _system_libraries() -> str:
     return here[0] if here else " or ".join(INSTALLERS.values())
 
 
-def _missing_libraries(printed: str) -> list[str]:
-    found = re.findall(
-        r"(lib[\w.+-]+\.so[\w.]*): (?:cannot open shared|file too short|invalid ELF)", printed
-    )
-    return sorted(set(found))
-
-
 def filters() -> Finding:
     """Our filters are registered, and PyMeshLab has all that its version should have."""
     answer = probe.ask(probe.FILTERS)
     wrong = _wrong_setting("filters", answer)
     if wrong:
         return wrong
-    missing = _missing_libraries(answer.printed)
+    missing = machine.broken_libraries(answer.printed)
     if not answer.values and missing:
         text = f"the Willmore filters are not there: {', '.join(missing)} is missing or broken"
         return Finding("filters", False, text, _system_libraries())

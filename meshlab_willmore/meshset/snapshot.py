@@ -19,6 +19,7 @@ import pymeshlab
 
 from ..machine import temporary_folder
 from . import layers, native, ply
+from .keywords import python_name
 
 MESH_FILE = "mesh.ply"
 
@@ -183,14 +184,9 @@ def _attribute_names(
         found = scalar or point
         if found:
             kind = element + ("s" if scalar else "p")
-            if f"__ca_{kind}__{_python_name(found[1])}" in keys:
+            if f"__ca_{kind}__{python_name(found[1])}" in keys:
                 names[kind, found[1]] = None
     return list(names)
-
-
-def _python_name(name: str) -> str:
-    """PyMeshLab's rule that turns a name of MeshLab's into one of Python's."""
-    return re.sub(r"[().,'\":+]+", "", re.sub(r"[ /-]", "_", name.lower()))
 
 
 def _curvatures(mesh: pymeshlab.Mesh) -> Iterator[str]:

@@ -18,8 +18,8 @@ LONG = 1200
 WARM = """
 from meshlab_willmore import warmup
 if __name__ == "__main__":
-    done = warmup.warm_up(print, 2)
-    print(done.compiled, warmup.warm_up(print).compiled)
+    warmup.warm_up(print, 2)
+    print(warmup.warm_up(print).compiled)
 """
 LOADED = """
 from meshlab_willmore import warmup
@@ -76,9 +76,7 @@ def printed(program):
 @pytest.mark.timeout(LONG)
 @pytest.mark.slow
 def test_after_it_no_process_compiles_anything():
-    first, second = printed(WARM)[-1].split()
-    assert int(first) >= 0
-    assert int(second) == 0
+    assert printed(WARM)[-1] == "0"
     assert printed(LOADED) == ["[]"]
     assert printed(USED) == ["[]"]
 

@@ -15,11 +15,12 @@ from . import energies, promise
 from .choices import random_options
 from .shapes import random_mesh
 
-# What says itself that a second run may find more: random kicks, or several starts.
 # Edges of slivers of a lower shape are no creases.
 CREASE_SHAPE = 1e-5
 # Coordinates below this part of the largest one count as zero.
 LEAST = 2.0**-74
+# What says itself that a second run may find more, by random kicks or several starts, and what to
+# run instead.
 AGAIN = {"annealing": "greedy", "thorough": "variable depth"}
 
 

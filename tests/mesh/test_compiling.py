@@ -215,5 +215,6 @@ def test_a_cold_cache_is_told_of_and_a_warm_one_is_not(tmp_path):
         assert run.returncode == 0, said
         return said.replace("\r\n", "\n")
 
-    assert told() == "Compiling meshlab_willmore once; this takes some seconds ...\n"
+    # On a slow machine lines follow that tell how far it is.
+    assert told().startswith("Compiling meshlab_willmore once; this takes some seconds ...\n")
     assert told() == ""

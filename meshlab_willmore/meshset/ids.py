@@ -68,18 +68,16 @@ def _wrap_current_mesh_id(wrapped: Callable) -> Callable:
 
 def _wrap_mesh_id_exists(wrapped: Callable) -> Callable:
     def mesh_id_exists(self: MeshSet, id: int) -> bool:
-        mesh_id = numbering.physical_of(self, id) if numbering.has_moved(self) else id
-        return mesh_id is not None and wrapped(self, mesh_id)
+        return wrapped(self, numbering.physical_of(self, id) if numbering.has_moved(self) else id)
 
     return mesh_id_exists
 
 
 def _wrap_set_current_mesh(wrapped: Callable) -> Callable:
     def set_current_mesh(self: MeshSet, new_curr_id: int) -> None:
+        # As in any set, no mesh is current after an id that doesn't exist.
         if numbering.has_moved(self):
-            physical = numbering.physical_of(self, new_curr_id)
-            # As in any set, no mesh is current after an id that doesn't exist.
-            new_curr_id = native.NO_LAYER if physical is None else physical
+            new_curr_id = numbering.physical_of(self, new_curr_id)
         wrapped(self, new_curr_id)
 
     return set_current_mesh
@@ -112,7 +110,7 @@ def _physical(ms: MeshSet, given: Any) -> Any:
     if not numbering.has_moved(ms):
         return given
     mesh_id = numbering.physical_of(ms, given)
-    if mesh_id is None:
+    if numbering.is_absent(mesh_id):
         raise pymeshlab.PyMeshLabException(f"Mesh ID {given} not found in MeshSet.")
     return mesh_id
 

@@ -86,7 +86,7 @@ def physical(ms: MeshSet, known: Known, given: dict[str, Any]) -> dict[str, Any]
     ids = {}
     for keyword in _id_keywords(known, given):
         mesh_id = numbering.physical_of(ms, given[keyword])
-        if mesh_id is None:
+        if numbering.is_absent(mesh_id):
             raise pymeshlab.PyMeshLabException(
                 f"Failed to apply filter: {known.name}\nDetails: parameter {keyword!r}: "
                 f"{layers.no_such_id(ms, given[keyword])}"

@@ -89,7 +89,7 @@ def _is_id(number: int) -> bool:
 
 
 def physical_of(ms: MeshSet, value: Any) -> Any:
-    """The physical id for a logical one that a caller gave; None if there is no such layer.
+    """The physical id for a logical one that a caller gave; `NO_LAYER` if there is no such layer.
 
     What is no whole number comes back as it is: PyMeshLab refuses it.
     """
@@ -97,7 +97,13 @@ def physical_of(ms: MeshSet, value: Any) -> Any:
         mesh_id = operator.index(value)
     except TypeError:
         return value
-    return physical_id(ms, mesh_id)
+    physical = physical_id(ms, mesh_id)
+    return native.NO_LAYER if physical is None else physical
+
+
+def is_absent(physical: Any) -> bool:
+    """Whether `physical_of` has found no layer."""
+    return isinstance(physical, int) and physical == native.NO_LAYER
 
 
 def note_shown(ms: MeshSet, mesh: pymeshlab.Mesh) -> None:

@@ -270,9 +270,11 @@ def test_an_id_that_does_not_exist_is_an_error_in_a_flipped_set():
             with pytest.raises(pymeshlab.PyMeshLabException, match=f"Mesh ID {mesh_id} not found"):
                 ask(mesh_id)
         assert not ms.mesh_id_exists(mesh_id)
-    for ask in (ms.mesh, ms.set_current_mesh, ms.mesh_id_exists):
-        with pytest.raises(TypeError):
-            ask("0")
+    for ask in (ms.mesh, ms.set_current_mesh, ms.mesh_id_exists, ms.is_mesh_visible):
+        for value in ("0", 0.0, None):
+            with pytest.raises(TypeError):
+                ask(value)
+    assert ms.current_mesh_id() == 0
 
 
 def test_a_loop_by_number_works_twice():

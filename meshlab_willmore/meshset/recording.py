@@ -104,23 +104,32 @@ def forget(ms: MeshSet) -> None:
 def our_script(path: str) -> tuple[Step, ...] | None:
     """The steps of a file that needs this package; None for what is PyMeshLab's to load.
 
-    That is a script that holds one of our filters, or can be run but has old names.
+    That is a script that holds one of our filters, or can be run but has old names. What comes out
+    of a pipe PyMeshLab could not read once more.
 
     Raises
     ------
     ScriptError
-        If the file names one of our filters, but can't be read.
+        If the file names one of our filters, but can't be read, or what a pipe gives can't.
     """
+    is_pipe = _is_pipe(path)
     try:
         steps = read(path)
     except ScriptError:
-        if _names_ours(path):
+        if is_pipe or _names_ours(path):
             raise
         return None
     found = (catalogue.find(step.filter) for step in steps)
-    if any(known and known.ours for known in found) or _is_ours_to_run(steps):
+    if is_pipe or any(known and known.ours for known in found) or _is_ours_to_run(steps):
         return modernised(steps)
     return None
+
+
+def _is_pipe(path: str) -> bool:
+    try:
+        return Path(path).is_fifo()
+    except (OSError, ValueError):
+        return False
 
 
 def _is_ours_to_run(steps: tuple[Step, ...]) -> bool:

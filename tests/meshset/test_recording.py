@@ -1,6 +1,7 @@
 """Our filters in the filter script of a set, and such scripts applied to another."""
 
 import itertools
+import os
 import re
 import subprocess
 import sys
@@ -490,6 +491,30 @@ def test_a_script_of_ours_that_cannot_be_read_is_an_error_and_the_old_one_stays(
     with pytest.raises(pymeshlab.PyMeshLabException, match=message):
         bumpy.load_filter_script(str(path))
     assert "0: willmore_measures" in printed(bumpy, capfd)
+
+
+@pytest.mark.skipif(not os.path.isdir("/dev/fd"), reason="pipes with a name")
+@pytest.mark.parametrize("name", ["Laplacian Smooth", "Willmore flipping optimization"])
+def test_a_script_can_come_out_of_a_pipe(bumpy, name):
+    """It is read once: PyMeshLab would find nothing more in it."""
+    end, start = os.pipe()
+    os.write(start, to_xml([Step(name)]).encode())
+    os.close(start)
+    bumpy.load_filter_script(f"/dev/fd/{end}")
+    os.close(end)
+    before = state(bumpy)
+    bumpy.apply_filter_script()
+    assert state(bumpy) != before
+
+
+@pytest.mark.skipif(not os.path.isdir("/dev/fd"), reason="pipes with a name")
+def test_what_is_no_script_in_a_pipe_is_an_error(bumpy):
+    end, start = os.pipe()
+    os.write(start, b"<FilterScript>")
+    os.close(start)
+    with pytest.raises(pymeshlab.PyMeshLabException, match="is not well-formed"):
+        bumpy.load_filter_script(f"/dev/fd/{end}")
+    os.close(end)
 
 
 def test_nothing_runs_of_a_script_with_a_fault(bumpy, tmp_path):

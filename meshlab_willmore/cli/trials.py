@@ -16,7 +16,7 @@ import threading
 import time
 import traceback
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, NamedTuple
 
@@ -146,8 +146,17 @@ def _process() -> Iterator[subprocess.Popen[str]]:
         try:
             yield process
         finally:
-            process.kill()
+            _kill_all(process)
             process.communicate()
+
+
+def _kill_all(process: subprocess.Popen[str]) -> None:
+    """Kill a process, and one in which it loads a mesh first (see `isolation`)."""
+    if hasattr(os, "killpg") and process.poll() is None:
+        # It is a session of its own, and so a group.
+        with suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+    process.kill()
 
 
 def _answers(process: subprocess.Popen[str], job: dict[str, Any]) -> Iterator[Any]:

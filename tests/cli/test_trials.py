@@ -104,6 +104,15 @@ def test_files_that_a_dead_process_left_are_removed(task, monkeypatch):
     assert trials.run(task, OWN, print).error == "crashed (SIGABRT)"
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="loads in a process of its own on Linux")
+def test_a_load_that_does_not_end_is_ended_with_its_process(monkeypatch):
+    """Else the end would wait for it: it holds the pipe of the answers."""
+    program = "import os, time; print(os.fork() > 0, flush=True); time.sleep(1000)"
+    monkeypatch.setattr(trials, "_PROGRAM", program)
+    with trials._process() as process:
+        assert {process.stdout.readline() for _ in range(2)} == {"True\n", "False\n"}
+
+
 def test_modules_of_the_working_directory_hide_no_others(task):
     Path("json.py").write_text("raise ImportError('a file of the user')")
     Path("click.py").write_text("raise ImportError('a file of the user')")

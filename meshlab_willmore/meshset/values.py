@@ -59,10 +59,19 @@ def value_of(param: Param, own: KnownParam) -> Value:
     if own.required and value == "":
         raise ValueError("is empty; the filter can't do without it")
     # Written and read again, it is exactly what a script could say.
-    value = rich.parse(own.type, rich.attributes(Param(own.name, own.type, value)))
+    written = Param(own.name, own.type, value, _needed(param, own))
+    value = rich.parse(own.type, rich.attributes(written))
     if own.choices:
         _check_choice(param, own, value)
     return value
+
+
+def _needed(param: Param, own: KnownParam) -> tuple[tuple[str, str], ...]:
+    """A range and the like, which nobody has looked at yet where the type is another, or none."""
+    if param.type == own.type or own.choices:
+        return ()
+    needs = rich.needs(own.type)
+    return tuple(pair for pair in param.details if pair[0] in needs)
 
 
 def _typed(param: Param, own: KnownParam) -> Value:

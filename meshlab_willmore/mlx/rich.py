@@ -123,6 +123,11 @@ def fields(type: str) -> tuple[str, ...]:
     return _kind(type).fields
 
 
+def needs(type: str) -> tuple[str, ...]:
+    """The attributes that MeshLab needs beside those of the value."""
+    return _kind(type).needs
+
+
 def fields_in(attributes: Mapping[str, str]) -> tuple[str, ...]:
     """The attributes that hold a value whose type nobody says; none if there is no value."""
     known = (kind.fields for kind in KINDS.values() if kind.fields)

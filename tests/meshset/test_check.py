@@ -380,6 +380,16 @@ def test_a_parameter_without_a_type_takes_the_filters_own():
     assert not any(warning.changes_result for warning in found.warnings)
 
 
+@pytest.mark.parametrize(("kind", "value"), [("", "0.5"), ("RichFloat", 0.5)])
+def test_a_range_is_looked_at_too_where_the_type_is_another_or_none(kind, value):
+    """Else nothing would be wrong with a script that no `convert` can write."""
+    details = (("min", "0"), ("max", "x"))
+    name = "NFRatio"
+    (fault,) = faults_of([Step("Select Folded Faces", (Param(name, kind, value, details),))])
+    assert (fault.param, fault.text) == (name, "max='x' is not a number")
+    assert not faults_of([Step("Select Folded Faces", (Param(name, kind, value, details[:1]),))])
+
+
 def test_the_old_form_without_types_needs_none():
     assert examine(Reading(steps_of(old_step(TAUBIN, mu="1")))).warnings == ()
 

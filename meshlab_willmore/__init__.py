@@ -11,7 +11,7 @@ import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from . import quick_start
+from . import machine, quick_start
 from ._version import __version__
 
 if TYPE_CHECKING:
@@ -87,6 +87,9 @@ def _register_where_possible() -> None:
             warnings.warn(f"{error}. Until then only the functions on arrays work.", stacklevel=3)
 
 
+if _is_command_line():
+    # Before PyMeshLab is imported, which then settles how it reads names of files.
+    machine.allow_all_names()
 _register_where_possible()
 # Most of what the first filter would wait for. Many commands do without.
 if not _is_command_line():

@@ -205,6 +205,15 @@ def _is_known(name: str, features: str) -> bool:
     return done.returncode == 0 and _UNKNOWN not in done.stderr
 
 
+def allow_all_names() -> None:
+    """Let PyMeshLab open files with letters outside of ASCII in the C locale of batch systems.
+
+    Python does the same for itself, but not where ``LC_ALL`` is set.
+    """
+    if sys.platform == "linux" and os.environ.get("LC_ALL") in ("C", "POSIX"):
+        os.environ["LC_ALL"] = "C.UTF-8"
+
+
 # --- temporary files ---------------------------------------------------------------------------
 
 

@@ -142,7 +142,8 @@ def warm_up(
     say : callable
         Gets a line for each step that took its time.
     processes : int
-        In how many processes; with 1, in this one.
+        In how many processes; with 1, or where the system has no locks for several (a container
+        without shared memory), in this one.
     end : callable
         Gets the name of each of the `steps` when it is through.
 
@@ -156,7 +157,8 @@ def warm_up(
     folder = _folder()
     start = time.perf_counter()
     found: list[compiling.Compiled] = []
-    for name, compiled in _in_processes(processes) if processes > 1 else _run(steps()):
+    pool = _pool(processes)
+    for name, compiled in _run(steps()) if pool is None else _in_processes(pool):
         if compiled:
             say(f"{name}: compiled in {sum(c.seconds for c in compiled):.1f} s")
         found += compiled
@@ -180,11 +182,19 @@ def _run(chosen: Iterable[Step]) -> Iterator[_Outcome]:
             yield step.name, compiled
 
 
-def _in_processes(processes: int) -> Iterator[_Outcome]:
+def _pool(processes: int) -> ProcessPoolExecutor | None:
+    if processes == 1:
+        return None
+    try:
+        # Forked, they would inherit threads' locks.
+        return ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"))
+    except (ImportError, NotImplementedError, OSError):
+        return None
+
+
+def _in_processes(pool: ProcessPoolExecutor) -> Iterator[_Outcome]:
     """Run all steps in processes of their own, as they come."""
-    # Forked, they would inherit threads' locks.
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(processes, context) as pool:
+    with pool:
         jobs = [pool.submit(_run_named, names) for names in _groups()]
         try:
             for job in as_completed(jobs):

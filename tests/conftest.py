@@ -20,6 +20,9 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 if hasattr(signal, "SIGHUP"):
     signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
+# PyMeshLab reads names of files as the locale says, and tests have some with all kinds of letters.
+os.environ["LC_ALL"] = "C.UTF-8"
+
 JIT_IS_OFF = os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0")
 IS_WORKER = "PYTEST_XDIST_WORKER" in os.environ
 # States of the sources whose kernels are kept.

@@ -81,6 +81,19 @@ def test_after_it_no_process_compiles_anything():
     assert printed(USED) == ["[]"]
 
 
+def test_without_locks_for_processes_one_does(monkeypatch):
+    def denied(*_):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(warmup, "ProcessPoolExecutor", denied)
+    monkeypatch.setattr(warmup, "cache_folder", lambda: "/the/folder")
+    monkeypatch.setattr(warmup.config, "DISABLE_JIT", 0)
+    ran = []
+    monkeypatch.setattr(warmup, "steps", lambda: [warmup.Step("one", lambda: ran.append(1))])
+    assert warmup.warm_up(print, 2).compiled == 0
+    assert ran == [1]
+
+
 def test_every_search_of_every_energy_is_a_step_with_the_default_first():
     names = [step.name for step in warmup.steps()]
     given = inspect.signature(optimize_flips).parameters

@@ -22,6 +22,8 @@ _SECONDS_PER_BYTE = 1e-6
 # By so much later than the parent would, the process ends itself.
 _LONGER = 1.0
 
+_IMAGES = {".bmp", ".jpeg", ".jpg", ".png", ".tga", ".tif", ".tiff"}
+
 _FINE = b"+"
 _FAILED = b"-"
 _CHUNK = 1 << 16
@@ -34,7 +36,7 @@ def check(path: Path, load: Callable[[], None], why: Callable[[Exception], str])
     Parameters
     ----------
     path : Path
-        The file, whose size tells how long it may take.
+        The file; its size tells how long it may take, and that of the images in its folder.
     why : callable
         What to say of an error.
 
@@ -45,7 +47,7 @@ def check(path: Path, load: Callable[[], None], why: Callable[[Exception], str])
     """
     if sys.platform != "linux":
         return
-    seconds = _SECONDS + _SECONDS_PER_BYTE * path.stat().st_size
+    seconds = _limit(path)
     end, start = os.pipe()
     with warnings.catch_warnings():
         # Threads of others don't matter to a child that loads and is gone.
@@ -69,6 +71,15 @@ def check(path: Path, load: Callable[[], None], why: Callable[[Exception], str])
     if answer != _FINE:
         name = signal.Signals(os.WTERMSIG(status)).name if os.WIFSIGNALED(status) else "no answer"
         raise OSError(f"PyMeshLab crashes on it ({name}); the file is damaged, or ends early")
+
+
+def _limit(path: Path) -> float:
+    """How many seconds a load may take: textures can be far larger than the mesh."""
+    size = path.stat().st_size
+    with suppress(OSError):
+        images = (p for p in path.parent.iterdir() if p.suffix.lower() in _IMAGES)
+        size += sum(image.stat().st_size for image in images)
+    return _SECONDS + _SECONDS_PER_BYTE * size
 
 
 def _read(end: int, until: float) -> bytes | None:

@@ -45,6 +45,13 @@ def test_what_does_not_end_is_ended(file, monkeypatch):
         isolation.check(file, lambda: time.sleep(1000), str)
 
 
+def test_large_textures_may_take_their_time(file):
+    alone = isolation._limit(file)
+    with (file.parent / "image.PNG").open("wb") as image:
+        image.truncate(50_000_000)
+    assert isolation._limit(file) == pytest.approx(alone + 50.0)
+
+
 def test_memory_has_a_limit(file):
     with pytest.raises(OSError, match=r"^MemoryError$"):
         isolation.check(file, lambda: bytearray(1 << 46), lambda error: type(error).__name__)

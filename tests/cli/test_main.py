@@ -1,6 +1,7 @@
 """The command line, as a person and as a pipe meet it."""
 
 import errno
+import os
 import shlex
 import subprocess
 import sys
@@ -160,6 +161,23 @@ def test_help_imports_nothing_heavy():
     )
     assert done.stdout.splitlines()[-1] == "[]"
     assert done.stderr == ""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="for Linux only")
+@pytest.mark.parametrize("locale", ["C", "POSIX"])
+def test_in_the_locale_of_batch_systems_names_have_all_letters(tmp_path, locale):
+    name = str(tmp_path / "ü日.off")
+    Path(name).write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+    done = subprocess.run(
+        [sys.executable, "-m", "meshlab_willmore", "measure", name, "--json"],
+        env={**os.environ, "LC_ALL": locale},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert '"faces": 1' in done.stdout
 
 
 @pytest.mark.heavy

@@ -1,5 +1,6 @@
 """The filter in several processes, the core on several threads."""
 
+import multiprocessing
 import subprocess
 import sys
 import threading
@@ -33,8 +34,18 @@ if __name__ == "__main__":
 """
 
 
+def has_locks():
+    """Whether processes can have locks in common, for which there must be shared memory."""
+    try:
+        multiprocessing.get_context("spawn").Lock()
+    except (ImportError, OSError):
+        return False
+    return True
+
+
 @pytest.mark.heavy
 @pytest.mark.slow
+@pytest.mark.skipif(not has_locks(), reason="no locks for several processes")
 def test_processes_that_were_forked_or_spawned_find_the_same(tmp_path, request):
     script = tmp_path / "script.py"
     script.write_text(f"import sys\nsys.path.insert(0, {str(request.config.rootpath)!r})\n{SCRIPT}")

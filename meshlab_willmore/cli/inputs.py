@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..files import special
-from . import formats, isolation, notes, stopping, unheld, unread
+from . import corners, formats, isolation, notes, stopping, unread
 from .errors import WrongUse, reason, wrong_use
 
 if TYPE_CHECKING:
@@ -179,7 +179,7 @@ def load(ms: pymeshlab.MeshSet, path: Path) -> None:
         with stopping.at_once(), native.muted():
             isolation.check(path, partial(_try, path), partial(_why, path))
         with stopping.at_once(), native.overheard(ms) as printed:
-            native.load(ms, path)
+            _load_sound(ms, path)
     except errors as error:
         raise OSError(f"cannot read {path}: {_why(path, error)}") from error
     if ms.current_mesh().vertex_number() == 0:
@@ -187,17 +187,23 @@ def load(ms: pymeshlab.MeshSet, path: Path) -> None:
     count = ms.mesh_number() - before
     if count > 1:
         notes.tell(f"{path}: it holds {count} meshes; the last one is taken, others are layers")
-    is_far = unheld.is_far(ms.current_mesh().vertex_matrix())
-    for loss in unread.losses(path, printed, is_far):
+    for loss in unread.losses(path, printed, ms.current_mesh()):
         notes.tell(f"{path}: {loss}")
 
 
 def _try(path: Path) -> None:
     import pymeshlab
 
+    _load_sound(pymeshlab.MeshSet(), path)
+
+
+def _load_sound(ms: pymeshlab.MeshSet, path: Path) -> None:
+    """Load a mesh whose corners are all there; filters would read and write anywhere in memory."""
     from ..meshset import native
 
-    native.load(pymeshlab.MeshSet(), path)
+    corners.check_text(path)
+    native.load(ms, path)
+    corners.check_loaded(ms.current_mesh())
 
 
 def _why(path: Path, error: Exception) -> str:

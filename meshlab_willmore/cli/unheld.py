@@ -14,7 +14,9 @@ if TYPE_CHECKING:
     import pymeshlab
 
 # So many times farther from the origin than it is wide, a mesh may lose what it is made of.
-_FAR = 1000.0
+_FAR = 100.0
+# Vertices that move by more of an edge than this change the shape.
+_MOST_SHIFT = 0.01
 
 
 def _array(*shape: int) -> Callable[[], Any]:
@@ -123,12 +125,7 @@ def losses(ms: pymeshlab.MeshSet, file: Path, ending: str, chosen: bool) -> Iter
     lost = [part.name for part in _lost(mesh, ending, parts)]
     if lost:
         yield f".{ending} files hold no {' and no '.join(lost)}"
-    merged = _merged(mesh, file)
-    if merged:
-        yield (
-            f"so far from the origin, .{ending} files can't hold all vertices apart: {merged} "
-            "get the place of another; move the mesh to the origin, or save it as PLY"
-        )
+    yield from _far_losses(mesh, file, ending)
 
 
 def _lost(mesh: pymeshlab.Mesh, ending: str, parts: Iterable[Part]) -> Iterator[Part]:
@@ -146,19 +143,53 @@ def is_far(vertices: np.ndarray) -> bool:
     return bool(np.abs(vertices).max() > _FAR * np.ptp(vertices, axis=0).max())
 
 
-def _merged(mesh: pymeshlab.Mesh, file: Path) -> int:
-    """How many vertices of faces have the place of another in the file, and not in the mesh."""
+def _far_losses(mesh: pymeshlab.Mesh, file: Path, ending: str) -> Iterator[str]:
+    """What rounding does to vertices in the file, and not in the mesh."""
     import numpy as np
 
-    vertices = mesh.vertex_matrix()
-    if mesh.face_number():
-        vertices = vertices[np.unique(mesh.face_matrix())]
-    if not is_far(vertices):
-        return 0
-    saved = _vertices_of(file)
-    if saved is None:
-        return 0
-    return max(len(np.unique(vertices, axis=0)) - len(np.unique(saved, axis=0)), 0)
+    vertices, faces = mesh.vertex_matrix(), mesh.face_matrix()
+    used = vertices[np.unique(faces)] if len(faces) else vertices
+    saved = _vertices_of(file) if is_far(used) else None
+    if saved is None or not len(saved):
+        return
+    cure = "move the mesh to the origin, or save it as PLY"
+    merged = len(np.unique(used, axis=0)) - len(np.unique(saved, axis=0))
+    if merged > 0:
+        yield (
+            f"so far from the origin, .{ending} files can't hold all vertices apart: {merged} "
+            f"get the place of another; {cure}"
+        )
+        return
+    shift, edge = _shift(used, saved), _mean_edge(vertices, faces)
+    if shift > _MOST_SHIFT * edge > 0.0:
+        yield (
+            f"so far from the origin, .{ending} files hold too few digits: vertices move by up to "
+            f"{shift:.2g}, where edges are {edge:.2g} long; {cure}"
+        )
+
+
+def _shift(vertices: np.ndarray, saved: np.ndarray) -> float:
+    """How far a coordinate is from the nearest one that was saved; some formats change the order.
+
+    Rounding takes a coordinate to the nearest one that can be held, so this is what it did.
+    """
+    import numpy as np
+
+    shift = 0.0
+    for column, kept in zip(vertices.T, np.sort(saved, axis=0).T, strict=True):
+        after = np.searchsorted(kept, column)
+        above = np.abs(kept[np.minimum(after, len(kept) - 1)] - column)
+        below = np.abs(kept[np.maximum(after - 1, 0)] - column)
+        shift = max(shift, float(np.minimum(above, below).max()))
+    return shift
+
+
+def _mean_edge(vertices: np.ndarray, faces: np.ndarray) -> float:
+    import numpy as np
+
+    if not len(faces):
+        return 0.0
+    return float(np.linalg.norm(vertices[faces[:, 0]] - vertices[faces[:, 1]], axis=1).mean())
 
 
 def _vertices_of(file: Path) -> np.ndarray | None:

@@ -9,18 +9,30 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from . import plyheader
+from . import plyheader, unheld
+
+if TYPE_CHECKING:
+    import pymeshlab
 
 _NO_TEXTURE = re.compile(r"Failed loading (.*); using a dummy texture")
 _LEFT_OUT = re.compile(r"mesh contains (\d+) vertices with NAN coords and (\d+) degenerated faces")
 # Of a load that succeeded: what went wrong and was no obstacle.
 _DETAILS = re.compile(r"Error details: (.+)")
+_IGNORED = "faces ignored"
 _SKIPPED = re.compile(r"error: skip line")
 
 _MATERIALS = re.compile(rb"^[ \t]*mtllib[ \t]+(\S[^\r\n]*?)[ \t\r]*$", re.MULTILINE)
 # Options of a texture and names with blanks, which PyMeshLab reads as no name at all.
 _TEXTURES = re.compile(rb"^[ \t]*map_Kd[ \t]+(\S+[ \t][^\r\n]*?)[ \t\r]*$", re.MULTILINE)
+
+# Images of a material beside its colour, of which PyMeshLab reads none.
+_MAPS = re.compile(
+    rb"^[ \t]*((?:map_(?!Kd\b)\w+|bump|disp|decal|norm|refl))[ \t]+(\S[^\r\n]*?)[ \t\r]*$",
+    re.MULTILINE | re.IGNORECASE,
+)
+_FACES = re.compile(rb"^[ \t]*f[ \t]", re.MULTILINE)
 
 # Texts that PyMeshLab reads in single precision.
 _SINGLE = (".stl", ".wrl", ".x3d", ".dae")
@@ -50,7 +62,7 @@ _KNOWN: dict[tuple[str, str], tuple[str, ...]] = {
 _NO_SURFACE = "camera"
 
 
-def losses(path: Path, printed: Iterable[str], is_far: bool) -> Iterator[str]:
+def losses(path: Path, printed: Iterable[str], mesh: pymeshlab.Mesh) -> Iterator[str]:
     """What was left out, a text for each kind.
 
     Parameters
@@ -59,19 +71,23 @@ def losses(path: Path, printed: Iterable[str], is_far: bool) -> Iterator[str]:
         The file that was loaded.
     printed : iterable of str
         What PyMeshLab printed meanwhile.
-    is_far : bool
-        Whether the mesh is so far from the origin that single precision may be too little.
+    mesh : pymeshlab.Mesh
+        What PyMeshLab made of it.
     """
     lines = list(printed)
     yield from _textures(path, [found[1] for line in lines if (found := _NO_TEXTURE.search(line))])
     yield from _elements(lines)
+    if path.suffix.lower() == ".obj":
+        yield from _maps(path)
+        yield from _corners_without_vertex(path, lines, mesh.face_number())
     details = [found[1].strip() for line in lines if (found := _DETAILS.search(line))]
     yield from dict.fromkeys(text[:1].lower() + text[1:] for text in details)
     skipped = sum(bool(_SKIPPED.search(line)) for line in lines)
     if skipped:
         yield f"lines that are no points, left out: {skipped}"
     ending = path.suffix.lower()
-    if is_far and ending in _SINGLE and _numbers_fall_together(path):
+    is_far = ending in _SINGLE and unheld.is_far(mesh.vertex_matrix())
+    if is_far and _numbers_fall_together(path):
         yield "so far from the origin, different coordinates become the same in single precision"
     if ending == ".ply":
         yield from _properties(path)
@@ -97,6 +113,8 @@ def _textures(path: Path, missing: list[str]) -> Iterator[str]:
         yield f"textures that were not found, and became dummy.png: {', '.join(names)}"
     if odd:
         yield f"textures with blanks in the name, which PyMeshLab can't read: {', '.join(odd)}"
+    elif "" in missing:
+        yield "textures without a name, which became dummy.png"
 
 
 def _names(path: Path, missing: list[str]) -> tuple[list[str], list[str]]:
@@ -111,7 +129,31 @@ def _names(path: Path, missing: list[str]) -> tuple[list[str], list[str]]:
         odd = [text for file in _material_files(path) for text in _odd_textures(file)]
     told = {text.replace(" ", "") for text in odd}
     names = [name for name in dict.fromkeys(missing) if name and name not in told]
-    return names, odd or (["one without a name"] if "" in missing else [])
+    return names, odd
+
+
+def _maps(path: Path) -> Iterator[str]:
+    """Images of materials that are not read, unless they are the colour's as well."""
+    maps: dict[str, str] = {}
+    for file in _material_files(path):
+        data = _data(file)
+        for kind, name in _MAPS.findall(data):
+            if not re.search(rb"^[ \t]*map_Kd[ \t]+" + re.escape(name) + rb"[ \t\r]*$", data, re.M):
+                maps.setdefault(name.decode("utf-8", "replace"), kind.decode())
+    if maps:
+        names = ", ".join(f"{name} ({kind})" for name, kind in maps.items())
+        yield f"images of materials that PyMeshLab does not read: {names}"
+
+
+def _corners_without_vertex(path: Path, lines: list[str], loaded: int) -> Iterator[str]:
+    """Faces that were left out without a word, where there are fewer than lines for them."""
+    counts = [found for line in lines if (found := _LEFT_OUT.search(line))]
+    # How many faces went with vertices, or were ignored, is not told.
+    if any(int(found[1]) for found in counts) or any(_IGNORED in line for line in lines):
+        return
+    lost = len(_FACES.findall(_data(path))) - sum(int(found[2]) for found in counts) - loaded
+    if lost > 0:
+        yield f"faces with vertices that are not there, left out: {lost}"
 
 
 def _material_files(path: Path) -> list[Path]:
@@ -125,10 +167,15 @@ def _odd_textures(file: Path) -> list[str]:
 
 
 def _found(pattern: re.Pattern[bytes], path: Path) -> list[bytes]:
+    return pattern.findall(_data(path))
+
+
+def _data(path: Path) -> bytes:
+    """The content of a file; nothing where there is none."""
     try:
-        return pattern.findall(path.read_bytes())
+        return path.read_bytes()
     except OSError:
-        return []
+        return b""
 
 
 def _properties(path: Path) -> Iterator[str]:

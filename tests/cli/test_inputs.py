@@ -271,3 +271,27 @@ def test_textures_of_one_name_are_not_mixed_up():
         "run", script, "-i", "a/square.obj", "a/square.obj", "-o", "{index}.obj", "--force"
     )
     assert (again.exit_code, again.stderr) == (0, "")
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("bad.off", SQUARE.replace("3 0 2 3", "3 0 2 77")),
+        ("bad.OFF", "# a scan\n\n" + SQUARE.replace("OFF\n", "OFF ").replace("3 0 2 3", "3 0 2 4")),
+    ],
+)
+def test_a_corner_that_is_not_there_is_found_before_a_filter_goes_there(name, text):
+    square("good.off")
+    Path(name).write_text(text)
+    done = call("run", script_file(TAUBIN), "-i", name, "good.off", "-o", "{name}.ply")
+    assert done.exit_code == 1
+    assert f"cannot read {name}: face 1 has a vertex that is not in 0 .. 3" in done.stderr
+    assert Path("good.ply").exists()
+
+
+@pytest.mark.parametrize(
+    "text", [SQUARE.replace("3 0 2 3", "3 0 2 3 255 0 0"), SQUARE.replace("4 2 0", "4 2  # counts")]
+)
+def test_a_sound_text_is_read(text):
+    Path("a.off").write_text(text)
+    assert inputs.loaded(Path("a.off")).current_mesh().face_number() == 2

@@ -91,3 +91,23 @@ def test_far_from_the_origin_vertices_fall_together(ending, far, merged, capsys)
 def test_small_details_are_no_matter_near_the_origin(capsys):
     cube = meshes.cube()
     assert told("a.stl", capsys, vertex_matrix=cube[0] + 3.0, face_matrix=cube[1]) == ""
+
+
+@pytest.mark.parametrize(
+    ("ending", "far", "is_told"),
+    [
+        ("stl", 2e6, True),
+        ("stl", 3e2, False),
+        ("dae", 2e5, True),
+        ("wrl", 3e2, False),
+        ("obj", 2e6, False),
+    ],
+)
+def test_vertices_that_move_far_from_the_origin(ending, far, is_told, capsys):
+    slanted = SQUARE + [[0.1, 0.3, 0.1], [0.2, 0.1, 0.6], [0.4, 0.3, 0.2], [0.1, 0.2, 0.9]]
+    slanted[:, :2] += far
+    note = told(f"a.{ending}", capsys, vertex_matrix=slanted)
+    start = (
+        f"Note: a.{ending}: so far from the origin, .{ending} files hold too few digits: vertices"
+    )
+    assert note.startswith(start) if is_told else note == ""

@@ -204,3 +204,36 @@ def test_commands_tell_it_once():
     for result in (call("measure", "a.off", "a.off"), call("flip", "a.off", "out.ply")):
         assert (result.exit_code, result.stderr) == (0, note)
     assert call("measure", "a.off", "--json").stdout.startswith("[")
+
+
+OBJ = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\n"
+
+
+@pytest.mark.parametrize(
+    ("more", "lost"),
+    [("f 1 2 9\n", 1), ("f 7 8 9\nf 1//5 3//5 6//5\nf 1 3 4\n", 2)],
+)
+def test_faces_of_a_text_whose_vertices_are_not_there(more, lost, capsys):
+    Path("a.obj").write_text(OBJ + more)
+    assert told("a.obj", capsys) == [f"faces with vertices that are not there, left out: {lost}"]
+
+
+@pytest.mark.parametrize("more", ["f 1 3 4\n", "f 1 2 3 4\n", "vn 0 0 1\nf 1//1 3//1 4//1\n"])
+def test_of_whole_faces_none_is_missed(more, capsys):
+    Path("a.obj").write_text(OBJ + more)
+    assert told("a.obj", capsys) == []
+
+
+def test_other_images_of_materials(capsys):
+    path = square_with_textures(".", "red.png")
+    Path("red.png").write_bytes(ONE_PIXEL)
+    materials = next(Path().glob("*.mtl"))
+    text = materials.read_text()
+    materials.write_text(text + "map_Ka red.png\nmap_Bump bumps.png\n  map_Ks shine.png\n")
+    names = "bumps.png (map_Bump), shine.png (map_Ks)"
+    assert told(path, capsys) == [f"images of materials that PyMeshLab does not read: {names}"]
+
+
+def test_a_texture_without_a_name(capsys):
+    path = square_with_textures(".", "")
+    assert told(path, capsys) == ["textures without a name, which became dummy.png"]

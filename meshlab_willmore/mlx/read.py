@@ -17,7 +17,7 @@ from defusedxml import EntitiesForbidden, ExternalReferenceForbidden
 from defusedxml.expatreader import DefusedExpatParser
 
 from .elements import ROOT, EnoughError, Reader
-from .loose import as_xml
+from .loose import as_xml, with_entities
 from .source import bytes_of, text_of
 from .steps import Reading, ScriptError, Step
 from .words import quoted
@@ -73,8 +73,16 @@ def reading_of(data: bytes, source: str) -> Reading:
     text = text_of(data, source)
     reader = Reader()
     may_be_loose = _parse(text, reader)
-    if is_loose := may_be_loose and (xml := as_xml(text)) != text:
+    xml = as_xml(text) if may_be_loose else text
+    if is_loose := xml != text:
         reader = Reader()
+        may_be_loose = _parse(xml, reader)
+    if may_be_loose and (mended := with_entities(xml))[1]:
+        xml, faults = mended
+        reader = Reader()
+        with suppress(EnoughError):
+            for fault in faults:
+                reader.add(fault)
         _parse(xml, reader)
     if not reader.is_script:
         raise ScriptError(source, reader.faults)

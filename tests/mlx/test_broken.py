@@ -100,7 +100,7 @@ XML = [
     (
         "ampersand",
         script('<filter name="a & b"/>'),
-        "a character has no place there (line 3, column 18)",
+        "& in the attribute 'name' is written &amp; (line 3)",
     ),
     ("html-entity", script('<filter name="a&nbsp;b"/>'), "undefined entity (line 3, column 1)"),
     (

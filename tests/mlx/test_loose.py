@@ -51,3 +51,20 @@ def test_what_is_no_such_element_stays(text):
 
 def test_proper_xml_is_read_as_it_is():
     assert not reading_of(script('<filter name="a"/>'), "s").is_loose
+
+
+def test_signs_in_attributes_hide_no_other_fault():
+    text = script(
+        '<filter name="R&D"/>\n<Nothing/>\n<filter name="Conditional Vertex Selection">\n'
+        ' <Param name="condSelect" type="RichString"\n  value="(q < 1) && (x &lt; 2)"/>\n'
+        ' <Param name="other" type="RichInt" value="x"/></filter>'
+    )
+    with pytest.raises(ScriptError) as caught:
+        read_bytes(text, "s")
+    assert [str(fault) for fault in caught.value.faults] == [
+        "is not well-formed XML: & in the attribute 'name' is written &amp; (line 3)",
+        "is not well-formed XML: < in the attribute 'value' is written &lt; (line 7)",
+        "is not well-formed XML: & in the attribute 'value' is written &amp; (line 7)",
+        "<Nothing> has no place in <FilterScript> (line 4)",
+        "step 2 (Conditional Vertex Selection), parameter 'other': value='x' is not a whole number",
+    ]

@@ -242,7 +242,7 @@ def temporary_folder(needed: int = 0) -> Iterator[Path]:
             raise RoomError(str(_no_room(folder, needed)))
         yield folder
     except Exception as error:
-        if isinstance(error, MachineError) or not _is_full(folder):
+        if fault_of(error) or not _is_full(folder):
             raise
         raise RoomError(str(_no_room(folder, needed))) from error
     finally:

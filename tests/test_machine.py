@@ -159,3 +159,17 @@ def test_the_machines_fault_is_found_behind_others():
     assert machine.fault_of(error) is fault
     assert machine.fault_of(None) is None
     assert isinstance(fault, MachineError)
+
+
+def test_the_inner_of_two_folders_tells_how_much_is_needed(monkeypatch):
+    monkeypatch.setattr(machine, "_is_full", lambda folder: True)
+
+    def step():
+        try:
+            with machine.temporary_folder(2**62):
+                pass
+        except RoomError as error:
+            raise ValueError(f"step 2: {error}") from error
+
+    with pytest.raises(ValueError, match=r"^step 2: .* are needed"), machine.temporary_folder():
+        step()

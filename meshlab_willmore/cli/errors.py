@@ -19,6 +19,9 @@ DOCTOR = " ('meshlab-willmore doctor' tells what is missing)"
 
 # PyMeshLab says first that it failed, at what, and in which file.
 _PRELUDE = re.compile(r"(?:Error d|D)etails:|Unable to (?:open|save) file:[^\n]*\n")
+# How a command line of meshlabserver begins.
+_OLD_OPTIONS = ("-i", "-o", "-s", "-l", "-m", "-p", "-w", "-x", "-d")
+_SCRIPT = ".mlx"
 
 
 class FaultyScript(click.ClickException):
@@ -49,6 +52,7 @@ class OneLineErrors(click.Group):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Read the options before the command's name."""
+        _refuse_old_form(args)
         with _wrong_use_in_one_line():
             return super().parse_args(ctx, args)
 
@@ -74,6 +78,13 @@ class OneLineErrors(click.Group):
             if isinstance(error, ImportError):
                 text = (machine.without_library(error) or text) + DOCTOR
             raise click.ClickException(text) from error
+
+
+def _refuse_old_form(args: list[str]) -> None:
+    """Raise `WrongUse` where `run` is missing, which meshlabserver had no word for."""
+    first = args[0] if args else ""
+    if first in _OLD_OPTIONS or first.lower().endswith(_SCRIPT):
+        raise WrongUse(f"{first} belongs to the command run: meshlab-willmore run {first} ...")
 
 
 @contextmanager

@@ -241,7 +241,9 @@ class _Checker:
             return
         old = old_names.filter_of(step.filter)
         today = known.meshlab_name or known.name
-        text = f"is {today!r} in today's MeshLab"
+        only_blanks = step.filter.strip() == today.strip()
+        text = "has other blanks around its name than " if only_blanks else "is "
+        text += f"{today!r} in today's MeshLab"
         if old and old.note:
             text += f": {old.note}"
         self._warn(number, step, Remark("", text, changes_result=bool(old and old.note)))

@@ -95,6 +95,11 @@ def test_version():
     ("arguments", "reason"),
     [
         (["dmeo"], "No such command 'dmeo'"),
+        (
+            ["-i", "a.ply", "-s", "clean.mlx"],
+            "-i belongs to the command run: meshlab-willmore run -i",
+        ),
+        (["clean.MLX", "-i", "a.ply"], "clean.MLX belongs to the command run"),
         (["demo", "--outptu", "x"], "No such option"),
         (["demo", "--output"], "requires an argument"),
         (["demo", "surplus"], "unexpected extra argument"),

@@ -303,3 +303,11 @@ def test_what_is_no_file_is_not_replaced_by_a_script(name):
     assert re.match(rf"Error: cannot write {name}: it (is|leads to) a socket, ", result.stderr)
     assert stat.S_ISSOCK(Path("socket").stat().st_mode)
     assert Path("link.mlx").is_symlink()
+
+
+def test_blanks_around_a_name_are_told_of():
+    path = script_file((" Remove Duplicate Vertices ", {}))
+    result = call("lint", path)
+    assert result.exit_code == 0
+    told = "has other blanks around its name than 'Remove Duplicate Vertices' in today's MeshLab"
+    assert told in result.stdout

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from .columns import counted
-from .errors import debug_option
+from .errors import WrongUse, debug_option
 from .inputs import matches, refuse_folder
 from .scripts import STANDARD_STREAM, source_of
 
@@ -33,8 +33,13 @@ def command(scripts: tuple[str, ...]) -> None:
     with what they are today, parameters without a type, and defaults that have changed. Exit code
     1 if a script has faults. Scripts can come from pipes; - is the standard input.
     """
-    faulty = 0
-    for path in _expanded(scripts):
+    paths, refusals = _expanded(scripts)
+    if refusals and not paths:
+        raise refusals[0]
+    for refusal in refusals:
+        refusal.show()
+    faulty = len(refusals)
+    for path in paths:
         found = _examined(path)
         for fault in found.faults:
             click.echo(f"{path}: {fault}")
@@ -47,11 +52,21 @@ def command(scripts: tuple[str, ...]) -> None:
         click.get_current_context().exit(1)
 
 
-def _expanded(names: tuple[str, ...]) -> list[Path]:
-    paths = [path for name in names for path in matches(name)]
-    for path in paths:
-        refuse_folder(path, "scripts", "*.mlx")
-    return paths
+def _expanded(names: tuple[str, ...]) -> tuple[list[Path], list[WrongUse]]:
+    """The scripts that names and patterns stand for, and what is wrong with the others."""
+    found = [_found(name) for name in names]
+    refusals = [refusal for _, refusal in found if refusal is not None]
+    return [path for paths, _ in found for path in paths], refusals
+
+
+def _found(name: str) -> tuple[list[Path], WrongUse | None]:
+    try:
+        paths = matches(name)
+        for path in paths:
+            refuse_folder(path, "scripts", "*.mlx")
+    except WrongUse as refusal:
+        return [], refusal
+    return paths, None
 
 
 def _examined(path: Path) -> Findings:

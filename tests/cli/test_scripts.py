@@ -311,3 +311,12 @@ def test_blanks_around_a_name_are_told_of():
     assert result.exit_code == 0
     told = "has other blanks around its name than 'Remove Duplicate Vertices' in today's MeshLab"
     assert told in result.stdout
+
+
+def test_a_name_that_is_no_script_hides_no_other(tmp_path):
+    path = script_file(TAUBIN)
+    result = call("lint", tmp_path, "*.nothing", path)
+    assert result.exit_code == 1
+    assert result.stdout == f"{path}: fine, 1 step\n"
+    assert f"Error: {tmp_path} is a folder" in result.stderr
+    assert "Error: no file matches '*.nothing'" in result.stderr

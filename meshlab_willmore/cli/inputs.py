@@ -177,6 +177,7 @@ def load(ms: pymeshlab.MeshSet, path: Path) -> None:
     native.forget_failures()
     try:
         with stopping.at_once(), native.muted():
+            corners.check_text(path)
             isolation.check(path, partial(_try, path), partial(_why, path))
         with stopping.at_once(), native.overheard(ms) as printed:
             _load_sound(ms, path)
@@ -201,7 +202,6 @@ def _load_sound(ms: pymeshlab.MeshSet, path: Path) -> None:
     """Load a mesh whose corners are all there; filters would read and write anywhere in memory."""
     from ..meshset import native
 
-    corners.check_text(path)
     native.load(ms, path)
     corners.check_loaded(ms.current_mesh())
 

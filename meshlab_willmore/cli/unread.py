@@ -32,7 +32,8 @@ _MAPS = re.compile(
     rb"^[ \t]*((?:map_(?!Kd\b)\w+|bump|disp|decal|norm|refl))[ \t]+(\S[^\r\n]*?)[ \t\r]*$",
     re.MULTILINE | re.IGNORECASE,
 )
-_FACES = re.compile(rb"^[ \t]*f[ \t]", re.MULTILINE)
+# Far quicker to count than with a regular expression.
+_FACES = (b"\nf ", b"\nf\t")
 
 # Texts that PyMeshLab reads in single precision.
 _SINGLE = (".stl", ".wrl", ".x3d", ".dae")
@@ -151,13 +152,17 @@ def _corners_without_vertex(path: Path, lines: list[str], loaded: int) -> Iterat
     # How many faces went with vertices, or were ignored, is not told.
     if any(int(found[1]) for found in counts) or any(_IGNORED in line for line in lines):
         return
-    lost = len(_FACES.findall(_data(path))) - sum(int(found[2]) for found in counts) - loaded
+    data = _data(path)
+    lines_of_faces = sum(map(data.count, _FACES))
+    lost = lines_of_faces - sum(int(found[2]) for found in counts) - loaded
     if lost > 0:
         yield f"faces with vertices that are not there, left out: {lost}"
 
 
 def _material_files(path: Path) -> list[Path]:
-    names = [found.decode("utf-8", "surrogateescape") for found in _found(_MATERIALS, path)]
+    data = _data(path)
+    found = _MATERIALS.findall(data) if b"mtllib" in data else []
+    names = [name.decode("utf-8", "surrogateescape") for name in found]
     return [path.parent / name for name in dict.fromkeys(names)]
 
 

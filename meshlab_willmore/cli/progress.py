@@ -2,8 +2,8 @@
 
 While native filters, searches and the compiler work, a thread of its own goes on telling. On a
 terminal the line is drawn anew each second, and gone in the end. Where the standard error is no
-terminal, only what takes minutes is told of, in a line each minute: a log wants to show that a run
-is alive, and not much more.
+terminal, only what takes its time is told of, in a line every few seconds: whoever waits for a run
+in a log sees that it is alive, and a batch of quick ones says nothing of this.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from . import cache_notes
 from .columns import beginning_of, columns_of, end_of, printable, width
 
 SECONDS_ON_A_TERMINAL = 1.0
-SECONDS_IN_A_LOG = 60.0
+SECONDS_IN_A_LOG = 8.0
 
 _BAR = 16
 # In windows that are narrower there is room for nothing else.

@@ -23,6 +23,12 @@ def _folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
+@pytest.fixture(autouse=True)
+def _quick_machine(monkeypatch):
+    """No line on how far a command is, however slow the machine, in what a test compares."""
+    monkeypatch.setattr("meshlab_willmore.cli.progress.SECONDS_IN_A_LOG", 3600.0)
+
+
 def call(*arguments, **given):
     """Run a command in this process."""
     return CliRunner().invoke(main, [str(argument) for argument in arguments], **given)

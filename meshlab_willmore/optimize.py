@@ -276,7 +276,7 @@ def optimize_flips(
     scaled, exponent = to_unit_scale(vertices, faces)
     order = local_order(faces, len(vertices))
     mesh = build(scaled, faces[order])
-    rules = _apply_locks(mesh, locks, order, rules)
+    mesh = _locked(mesh, locks, order)
     before = willmore_energy_of(mesh)
     kind = KINDS[energy]
     kernels = PLACED_KERNELS[place] if energy == "virtual willmore" else KERNELS[energy]
@@ -337,13 +337,13 @@ def _suited(rules, kind, mesh):
     return rules._replace(tolerance=kind.least * unit, rank_step=RANK_STEP * unit)
 
 
-def _apply_locks(mesh, locks, order, rules):
+def _locked(mesh, locks, order):
     """Lock edges of `mesh`, whose faces are those of the input in `order`, in place.
 
     Returns
     -------
-    Rules
-        With what has to be asked at each flip: not to fold the texture mapping.
+    Mesh
+        With the texture coordinates, which no flip must fold.
     """
     if locks.featuredeg < guards.FLAT_ANGLE:
         guards.lock_creases(mesh, math.radians(locks.featuredeg))
@@ -352,7 +352,7 @@ def _apply_locks(mesh, locks, order, rules):
     if locks.locked_edges is not None:
         guards.lock_edges(mesh, locks.locked_edges)
     if locks.wedge_uv is None:
-        return rules
+        return mesh
     uv = guards.mapping_of(locks.wedge_uv, order)
     guards.lock_seams(mesh, uv)
-    return rules._replace(fold=rules.fold._replace(uv=uv))
+    return mesh._replace(uv=uv)

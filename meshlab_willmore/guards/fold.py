@@ -6,12 +6,10 @@ It keeps the surface from folding, and texture mappings too (see `mapping`).
 import math
 from typing import NamedTuple
 
-import numpy as np
-
 from ..mesh.halfedge import diamond
-from ..mesh.jit import inner
+from ..mesh.jit import inlined, inner
 from ..mesh.points import angle_between, dot, norm, normal, subtract
-from .mapping import NO_MAPPING, turns_over
+from .mapping import turns_over
 
 FLAT_ANGLE = 180.0
 RIGHT_ANGLE = 0.5 * math.pi
@@ -31,16 +29,12 @@ class FoldLimits(NamedTuple):
         Radians by which rounding may push an angle over its limit (right angles are common).
     shape : float
         Triangle shape in [0, 1] below which a flip must not bring the worse face.
-    uv : (3 m, 2 c) float64
-        Texture coordinates of the corners of the input, from `mapping_of`. No flip folds them,
-        whether or not the surface may fold.
     """
 
     active: bool
     angle: float
     slack: float = 1e-9
     shape: float = 0.05
-    uv: np.ndarray = NO_MAPPING
 
 
 def fold_limits(foldangle):
@@ -65,14 +59,16 @@ def dihedral_angle(mesh, h):
     return angle_between(normal(i, j, k), normal(j, i, l))
 
 
-@inner
+@inlined
 def folds(mesh, h, limits):
     """Tell whether to flip `h` would fold the surface, make a sliver, or fold a texture mapping.
 
     True if the dihedral angle of the new edge exceeds both the old one and the limit, if the worse
     shape of the two faces falls below both the old one and the limit, or if `turns_over` says so.
     """
-    return (limits.active and _folds_surface(mesh, h, limits)) or turns_over(mesh, h, limits.uv)
+    if limits.active and _folds_surface(mesh, h, limits):
+        return True
+    return len(mesh.uv) > 0 and turns_over(mesh, h)
 
 
 @inner

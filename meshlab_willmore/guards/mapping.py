@@ -25,7 +25,6 @@ from ..mesh.halfedge import previous
 from ..mesh.jit import at, inner, jit
 from .predicates import orient2d
 
-NO_MAPPING = np.empty((0, 0))
 # Twice an area is computed from differences of coordinates with an error below this part of the
 # triangle's width times height, whichever corner they are taken from.
 ROUNDING = 2.0**-48
@@ -122,18 +121,17 @@ def _turns_over_in(mesh, h, uv, first):
 
 
 @inner
-def turns_over(mesh, h, uv):
+def turns_over(mesh, h):
     """Tell whether the flip of `h` would turn a texture triangle over or make it flat.
 
     Parameters
     ----------
     mesh : Mesh
+        Its `uv` is from `mapping_of`; without any, nothing is refused.
     h : int
         Half-edge that is free; its edge is no seam, see `meshlab_willmore.guards.locks.lock_seams`.
-    uv : (3 m, 2 c) float64
-        From `mapping_of`, by the corners of the input; `NO_MAPPING` refuses nothing.
     """
     refused = False
-    for first in range(0, uv.shape[1], 2):
-        refused = refused or _turns_over_in(mesh, h, uv, first)
+    for first in range(0, mesh.uv.shape[1], 2):
+        refused = refused or _turns_over_in(mesh, h, mesh.uv, first)
     return refused

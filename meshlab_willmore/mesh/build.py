@@ -267,6 +267,7 @@ def build(vertices, faces):
             locked=np.zeros(faces.size, np.bool_),
             corner=np.arange(faces.size, dtype=np.int32),
             several_fans=np.zeros(count, np.bool_),
+            uv=np.empty((0, 0)),
         )
         fans = _Fans(mesh, np.zeros(count, np.int32), np.full(count, NONE, np.int32))
         _count_corners(fans)

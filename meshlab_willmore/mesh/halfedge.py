@@ -51,6 +51,9 @@ class Mesh(NamedTuple):
         locked edges: it tells which wedge data a corner inherits.
     several_fans : (n,) bool
         Vertices whose faces do not form one fan around them. Flips never change that.
+    uv : (3 m, 2 c) float64
+        Texture coordinates of the corners of the input faces in each of c mappings, never changed;
+        empty without any.
     """
 
     vertices: np.ndarray
@@ -59,6 +62,7 @@ class Mesh(NamedTuple):
     locked: np.ndarray
     corner: np.ndarray
     several_fans: np.ndarray
+    uv: np.ndarray
 
 
 class Diamond(NamedTuple):

@@ -33,14 +33,14 @@ import numpy as np
 
 from ..guards import space as spaces
 from ..guards.cuts import EVER, blocker
-from ..mesh.halfedge import NONE, apex, flip, makes_new_edge
+from ..mesh.halfedge import apex, flip, makes_new_edge
 from ..mesh.jit import at, inner, jit
 from ..mesh.status import report
 from ..mesh.workers import crew
 from . import lists, peaks
 from .board import board_of, forbid
 from .pairs import insert, reserve
-from .peaks import FOLDS, IS_BLOCKED, IS_JOINED, Look
+from .peaks import FOLDS, IS_BLOCKED, IS_JOINED, IS_PEAK, Look
 from .rules import (
     CONVERGED,
     MOST_PASSES,
@@ -89,8 +89,9 @@ def _is_refused(board, h, verdict, is_contested, number):
     if board.is_tie[at(h)] and brings_back(mesh, board.gone, h):
         board.kept_away[0] = True
         return True
-    face = blocker(mesh, board.space, h, number) if is_contested else NONE
-    return must_wait(board, h, face)
+    if not is_contested:
+        return False
+    return must_wait(board, h, blocker(mesh, board.space, h, number))
 
 
 class Done(NamedTuple):
@@ -128,7 +129,9 @@ def flip_peaks(look, start, stop, first, left, number, done):
     flipped, refused, gain, state = done
     for place in range(start, stop):
         h, verdict = np.int64(look.edges[at(place)]), look.verdict[at(place)]
-        if _is_refused(board, h, verdict, place >= first, number):
+        # Of most nothing is to be asked any more.
+        is_settled = verdict == IS_PEAK and place < first and not board.is_tie[at(h)]
+        if not is_settled and _is_refused(board, h, verdict, place >= first, number):
             forbid(board, h)
             refused += 1
             board.done[at(len(board.done) - refused)] = h

@@ -142,7 +142,7 @@ def _region(mesh, part, is_shared):
     local = local.reshape(-1, 3).astype(np.int32)
     half_edges = _half_edges(part)
     own = build(mesh.vertices[vertices], local)
-    own = own._replace(corner=mesh.corner[half_edges], locked=mesh.locked[half_edges])
+    own = own._replace(corner=mesh.corner[half_edges], locked=mesh.locked[half_edges], uv=mesh.uv)
     frozen = is_shared[faces].any(axis=1)
     kept = np.flatnonzero(np.repeat(frozen, 3))
     own.locked[kept] = True

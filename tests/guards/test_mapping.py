@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from meshlab_willmore import guards
-from meshlab_willmore.guards.mapping import NO_MAPPING, mapping_of
+from meshlab_willmore.guards.mapping import mapping_of
 from meshlab_willmore.mesh.build import build
 from meshlab_willmore.mesh.halfedge import apex, can_flip, flip
 from tests import meshes
@@ -19,17 +19,17 @@ K, L = (0.0, 4.0), (4.0, 0.0)
 
 
 def mapped(*mappings):
-    """Two triangles (i, j, k), (j, i, l), whose vertices have these coordinates; and the limits."""
+    """Two triangles (i, j, k), (j, i, l), whose vertices have these coordinates."""
     mesh = build(*meshes.two_triangles())
     wedges = np.concatenate([np.array(uv, float)[mesh.origin] for uv in mappings], axis=1)
     order = np.arange(2, dtype=np.int32)
-    return mesh, ALL._replace(uv=mapping_of(wedges.reshape(2, 3, -1), order))
+    return mesh._replace(uv=mapping_of(wedges.reshape(2, 3, -1), order))
 
 
 def is_refused(*mappings):
-    mesh, limits = mapped(*mappings)
-    refused = guards.folds(mesh, 0, limits)
-    assert guards.folds(mesh, mesh.twin[0], limits) == refused
+    mesh = mapped(*mappings)
+    refused = guards.folds(mesh, 0, ALL)
+    assert guards.folds(mesh, mesh.twin[0], ALL) == refused
     return refused
 
 
@@ -94,12 +94,12 @@ def test_the_rule(uv, fine):
 def test_every_quad_of_a_small_grid_is_judged_as_by_fractions():
     """Flat and turned over triangles, and corners at one point, are all among them."""
     rng = np.random.default_rng(0)
-    mesh, limits = mapped([I, J, K, L])
+    mesh = mapped([I, J, K, L])
     seen = set()
     for _ in range(20_000):
         uv = rng.integers(0, 4, (4, 2)).astype(float)
-        limits.uv[:] = uv[mesh.origin]
-        assert guards.folds(mesh, 0, limits) != is_fine(uv)
+        mesh.uv[:] = uv[mesh.origin]
+        assert guards.folds(mesh, 0, ALL) != is_fine(uv)
         seen.add((*map(tuple, signs(uv)), is_fine(uv)))
     assert len(seen) > 15
 
@@ -135,8 +135,7 @@ def test_all_mappings_count():
     assert not is_refused(good, good)
     assert is_refused(good, bad)
     assert is_refused(bad, good)
-    mesh, limits = mapped(bad)
-    assert not guards.folds(mesh, 0, limits._replace(uv=NO_MAPPING))
+    assert not guards.folds(build(*meshes.two_triangles()), 0, ALL)
 
 
 def test_coordinates_go_along_with_flips():
@@ -144,14 +143,14 @@ def test_coordinates_go_along_with_flips():
     mesh = build(*meshes.bumpy_sphere(40, bump=0.6))
     uv = np.random.default_rng(0).integers(-3, 4, (40, 2)).astype(float)
     order = np.arange(len(mesh.origin) // 3, dtype=np.int32)
-    limits = ALL._replace(uv=mapping_of(uv[mesh.origin].reshape(-1, 3, 2), order))
+    mesh = mesh._replace(uv=mapping_of(uv[mesh.origin].reshape(-1, 3, 2), order))
     verdicts = []
     for h in np.random.default_rng(1).integers(0, len(mesh.origin), 400):
         if can_flip(mesh, h):
             quad = uv[
                 [mesh.origin[h], mesh.origin[mesh.twin[h]], apex(mesh, h), apex(mesh, mesh.twin[h])]
             ]
-            verdicts.append(guards.folds(mesh, h, limits))
+            verdicts.append(guards.folds(mesh, h, ALL))
             assert verdicts[-1] != is_fine(quad)
             flip(mesh, h)
     assert 50 < sum(verdicts) < len(verdicts) - 50
@@ -164,7 +163,7 @@ def test_seams_and_faces_that_map_nowhere_are_locked():
     order = np.arange(len(faces), dtype=np.int32)
     guards.lock_seams(mesh, mapping_of(uv, order))
     assert not mesh.locked.any()
-    guards.lock_seams(mesh, NO_MAPPING)
+    guards.lock_seams(mesh, mesh.uv)
     assert not mesh.locked.any()
     # The first square is a chart of its own: only one end of one of its edges stays where it was.
     moved = uv.copy()

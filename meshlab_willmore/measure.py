@@ -14,8 +14,8 @@ from .energy.gaussian_curvature import angle_defects
 from .energy.triangles import corners
 from .energy.willmore import edge_angle, edge_turn
 from .guards import triangle_shape
+from .guards.bvh import build_bvh
 from .guards.cuts import mark_cuts
-from .guards.space import space_of
 from .mesh.build import build, interior_vertices
 from .mesh.halfedge import Mesh
 from .mesh.jit import at, jit
@@ -208,7 +208,7 @@ def self_intersections(vertices, faces):
     that share an edge, and may count others.
     """
     mesh, _ = _unit_mesh(vertices, faces)
-    space = space_of(mesh)
+    space = build_bvh(mesh)
     marked = np.zeros(len(mesh.origin) // 3, np.bool_)
     for start in range(0, len(marked), SLICE):
         mark_cuts(mesh, space, marked, start, min(start + SLICE, len(marked)))

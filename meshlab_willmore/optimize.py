@@ -7,7 +7,7 @@ import numpy as np
 
 from . import guards
 from .energy.kinds import KINDS
-from .guards import space as spaces
+from .guards.bvh import build_bvh, inactive_bvh
 from .measure import willmore_energy_of
 from .mesh.build import build, changed_edges, in_old_slots, local_order
 from .mesh.halfedge import lengths_of_sides
@@ -281,7 +281,7 @@ def optimize_flips(
     kind = KINDS[energy]
     kernels = PLACED_KERNELS[place] if energy == "virtual willmore" else KERNELS[energy]
     rules = _suited(rules, kind, mesh)
-    space = spaces.space_of(mesh, exponent) if is_guarded else spaces.no_space()
+    space = build_bvh(mesh, exponent) if is_guarded else inactive_bvh()
     if search == "parallel greedy":
         progress = parallel_greedy.run(kernels.score, mesh, rules, space)
     elif search == "greedy":

@@ -9,8 +9,8 @@ from numba.extending import overload
 
 from ..mesh.halfedge import NONE, apex, diamond
 from ..mesh.jit import at, inner, jit
+from .bvh import box_around, is_no_bvh, leaf_range, next_leaf, skip_subtree
 from .faces import are_seen_apart, count_as_cut, cut_exactly, face_of, from_corner, match
-from .space import after, box_around, faces_at, is_none, next_leaf
 
 # All faces count, whenever they changed.
 EVER = 0
@@ -73,7 +73,7 @@ def _face_to_be(mesh, e, to_flip):
 
 
 @inner
-def _first_cut(mesh, space, h, since, to_flip):
+def _first_cut(mesh, bvh, h, since, to_flip):
     """Return a face besides those at `h` that one of the new faces would cut, or `NONE`.
 
     Only of the faces that changed in the round `since` or later, as `_face_to_be` gives them.
@@ -81,38 +81,38 @@ def _first_cut(mesh, space, h, since, to_flip):
     f, g = np.int64(h // 3), np.int64(mesh.twin[at(h)] // 3)
     one, other = _new_faces(mesh, h)
     box, one_box, other_box = box_around(*diamond(mesh, h)), box_of(one), box_of(other)
-    node = next_leaf(space, 0, box, since)
+    node = next_leaf(bvh, 0, box, since)
     while node != NONE:
-        start, stop = faces_at(space, node)
+        start, stop = leaf_range(bvh, node)
         for place in range(start, stop):
-            e = np.int64(space.order[at(place)])
-            if e in (f, g) or space.changed[at(e)] < since:
+            e = np.int64(bvh.order[at(place)])
+            if e in (f, g) or bvh.changed[at(e)] < since:
                 continue
             near = _face_to_be(mesh, e, to_flip)
             near_box = box_of(near)
-            if boxes_meet(near_box, one_box) and _are_refused(one, near, space.area_scale):
+            if boxes_meet(near_box, one_box) and _are_refused(one, near, bvh.area_scale):
                 return e
-            if boxes_meet(near_box, other_box) and _are_refused(other, near, space.area_scale):
+            if boxes_meet(near_box, other_box) and _are_refused(other, near, bvh.area_scale):
                 return e
-        node = next_leaf(space, after(node), box, since)
+        node = next_leaf(bvh, skip_subtree(node), box, since)
     return NONE
 
 
 @inner
-def _blocker(mesh, space, h, since):
+def _blocker(mesh, bvh, h, since):
     # These two are the same as ever.
-    if since == EVER and _are_refused(*_new_faces(mesh, h), space.area_scale):
+    if since == EVER and _are_refused(*_new_faces(mesh, h), bvh.area_scale):
         return np.int64(h // 3)
-    return _first_cut(mesh, space, h, since, None)
+    return _first_cut(mesh, bvh, h, since, None)
 
 
-def blocker(mesh, space, h, since):
+def blocker(mesh, bvh, h, since):
     """Return a face that the flip of `h` would make a new face cut.
 
     Parameters
     ----------
     mesh : Mesh
-    space : Space
+    bvh : Bvh
         Up to date with the mesh. One that is not active refuses nothing.
     h : int
         Half-edge that `can_flip` allows.
@@ -127,18 +127,18 @@ def blocker(mesh, space, h, since):
         `NONE` if there is none: the flip may be made. The face of `h` if the two new faces would
         cut each other. As long as this face and the two at `h` stay, the answer stays.
     """
-    return _blocker(mesh, space, h, since) if space.active else NONE
+    return _blocker(mesh, bvh, h, since) if bvh.active else NONE
 
 
 @inner
-def has_rival(mesh, space, h, number, to_flip):
+def has_rival(mesh, bvh, h, number, to_flip):
     """Tell whether a new face of `h` would cut one that another flip of the same round makes.
 
     Parameters
     ----------
     mesh : Mesh
         Before the flips.
-    space : Space
+    bvh : Bvh
         Its boxes hold the faces before and after; `grow` has noted the round.
     h : int
         Half-edge.
@@ -147,22 +147,22 @@ def has_rival(mesh, space, h, number, to_flip):
     to_flip : (m,) int32
         For each face that is to change in this round the half-edge that is to be flipped.
     """
-    return _first_cut(mesh, space, h, number, to_flip) != NONE
+    return _first_cut(mesh, bvh, h, number, to_flip) != NONE
 
 
 @overload(blocker)
-def _compiled_blocker(mesh, space, h, since):
-    return (lambda mesh, space, h, since: NONE) if is_none(space) else blocker
+def _compiled_blocker(mesh, bvh, h, since):
+    return (lambda mesh, bvh, h, since: NONE) if is_no_bvh(bvh) else blocker
 
 
 @inner
-def would_cut(mesh, space, h):
+def would_cut(mesh, bvh, h):
     """Tell whether the flip of `h` is refused, as `blocker` does; never if nothing is active."""
-    return blocker(mesh, space, h, EVER) != NONE
+    return blocker(mesh, bvh, h, EVER) != NONE
 
 
 @jit
-def mark_cuts(mesh, space, marked, start, stop):
+def mark_cuts(mesh, bvh, marked, start, stop):
     """Mark, in place, faces that cut others, by the exact tests alone.
 
     Looks at the pairs of a face from `start` up to `stop` and a face of a higher number.
@@ -170,14 +170,14 @@ def mark_cuts(mesh, space, marked, start, stop):
     for f in range(start, stop):
         one = face_at(mesh, f)
         box = box_of(one)
-        node = next_leaf(space, 0, box, EVER)
+        node = next_leaf(bvh, 0, box, EVER)
         while node != NONE:
-            first, last = faces_at(space, node)
+            first, last = leaf_range(bvh, node)
             for place in range(first, last):
-                e = np.int64(space.order[at(place)])
+                e = np.int64(bvh.order[at(place)])
                 if e <= f or (marked[e] and marked[f]):
                     continue
                 near = face_at(mesh, e)
                 if boxes_meet(box_of(near), box) and cut_exactly(one, near, match(one, near)):
                     marked[e] = marked[f] = True
-            node = next_leaf(space, after(node), box, EVER)
+            node = next_leaf(bvh, skip_subtree(node), box, EVER)

@@ -32,8 +32,7 @@ import numpy as np
 
 from .. import guards
 from ..guards import cuts
-from ..guards import space as spaces
-from ..guards.space import Space
+from ..guards.bvh import Bvh, inactive_bvh, refit, refitted
 from ..mesh.halfedge import NONE, Mesh, flip, is_free, makes_new_edge
 from ..mesh.jit import generic, inner
 from ..mesh.status import report
@@ -75,7 +74,7 @@ class Task(NamedTuple):
     journal : (s,) int32
         Half-edges flipped since the slice began.
     rules : Rules
-    space : Space
+    space : Bvh
         The guard against self-intersections, up to date with `mesh`.
     """
 
@@ -83,7 +82,7 @@ class Task(NamedTuple):
     best: Mesh
     journal: np.ndarray
     rules: Rules
-    space: Space
+    space: Bvh
 
 
 class Walk(NamedTuple):
@@ -151,7 +150,7 @@ def advance(task, walk, draws, temperature, judge):
             state = STOPPED
             break
         flip(mesh, h)
-        spaces.follow(mesh, task.space, h)
+        refit(mesh, task.space, h)
         task.journal[done] = h
         done += 1
         flips += 1
@@ -212,10 +211,10 @@ def _sweep(kernel, task, schedule, loss):
 def _anneal(kernels, begin, rules, schedule, loss):
     """Return the last and the best state of the annealing that begins at the state `begin`."""
     mesh, best = copy_of(begin.mesh), copy_of(begin.mesh)
-    space, journal = spaces.renewed(begin.space, mesh), np.empty(SLICE, np.int32)
+    space, journal = refitted(begin.space, mesh), np.empty(SLICE, np.int32)
     left = rules._replace(maxflips=rules.maxflips - begin.flips)
     walk = _sweep(kernels.anneal, Task(mesh, best, journal, left, space), schedule, loss)
-    at_best = spaces.renewed(space, best)
+    at_best = refitted(space, best)
     return (
         State(mesh, space, begin.flips + walk.flips, walk.state),
         State(best, at_best, begin.flips + walk.best_flips, walk.state),
@@ -234,7 +233,7 @@ def run(kernels, mesh, rules, schedule, space=None):
         `maxflips` limits the flips on the way to each state, those that others take back counted
         too. `monotone` holds for the descents.
     schedule : Schedule
-    space : Space, optional
+    space : Bvh, optional
         The guard against self-intersections, up to date with the mesh. It holds for each flip.
 
     Returns
@@ -243,7 +242,7 @@ def run(kernels, mesh, rules, schedule, space=None):
         `flips` on the way to the result; `gain`: the drop of the energy that judges; the state is
         `CONVERGED` or `STOPPED`.
     """
-    begin = start_from(mesh, spaces.no_space() if space is None else space)
+    begin = start_from(mesh, inactive_bvh() if space is None else space)
     found = descend(kernels, begin, rules)
     loss = 0.0 if found.state == STOPPED else _median_loss(kernels, found.mesh, rules)
     if loss > 0.0:

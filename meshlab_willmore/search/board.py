@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..guards.space import Space
+from ..guards.bvh import Bvh
 from ..mesh.halfedge import NONE, Mesh
 from ..mesh.jit import at, inner
 from .heap import NEVER
@@ -55,7 +55,7 @@ class Board(NamedTuple):
     new_edge : (n,) int64
         The round in which a flip is last to make an edge of which the vertex is the lower end, and
         in the low 32 bits the number of the peak.
-    space : Space
+    space : Bvh
     waiting : Waiting
     to_flip : (m,) int32
         For each face that is to change in this round the half-edge that is to be flipped; empty if
@@ -80,7 +80,7 @@ class Board(NamedTuple):
     awaited: Pairs
     kept_away: np.ndarray
     new_edge: np.ndarray
-    space: Space
+    space: Bvh
     waiting: Waiting
     to_flip: np.ndarray
 

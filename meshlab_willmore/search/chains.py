@@ -10,8 +10,7 @@ import numpy as np
 from .. import guards
 from ..energy import willmore
 from ..guards import cuts
-from ..guards import space as spaces
-from ..guards.space import Space
+from ..guards.bvh import Bvh, refit
 from ..mesh.halfedge import (
     NONE,
     Mesh,
@@ -115,7 +114,7 @@ class Task(NamedTuple):
     chain: Chain
     touched: np.ndarray
     rules: Rules
-    space: Space
+    space: Bvh
     blocked: np.ndarray
     refused: np.ndarray
 
@@ -284,7 +283,7 @@ def _do(task, s):
         chain.corner[s, c] = mesh.corner[h - h % 3 + c]
         chain.corner[s, 3 + c] = mesh.corner[t - t % 3 + c]
     flip(mesh, h)
-    spaces.follow(mesh, task.space, h)
+    refit(mesh, task.space, h)
 
 
 @inner
@@ -297,7 +296,7 @@ def _undo(task, s):
     flip(mesh, h)
     flip(mesh, h)
     flip(mesh, h)
-    spaces.follow(mesh, task.space, h)
+    refit(mesh, task.space, h)
     for c in range(3):
         mesh.corner[h - h % 3 + c] = chain.corner[s, c]
         mesh.corner[t - t % 3 + c] = chain.corner[s, 3 + c]

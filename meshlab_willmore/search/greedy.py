@@ -36,8 +36,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..energy import willmore
-from ..guards import space as spaces
-from ..guards.space import Space
+from ..guards.bvh import Bvh, inactive_bvh, refit
 from ..mesh.halfedge import NONE, Mesh, flip, makes_new_edge
 from ..mesh.jit import generic, inner
 from ..mesh.status import report
@@ -74,7 +73,7 @@ class Task(NamedTuple):
     queue: Queue
     gone: Pairs
     rules: Rules
-    space: Space
+    space: Bvh
     waiting: Waiting
     kept_away: np.ndarray
 
@@ -109,7 +108,7 @@ def _flip(task, h, cost_reduction):
         visit_around(task, h, rescoring.rescore, cost_reduction)
     visit_freed(task, h, rescoring.rescore, cost_reduction)
     if task.space.active:
-        spaces.follow(task.mesh, task.space, h)
+        refit(task.mesh, task.space, h)
         _rescore_waiting(task, h // 3, cost_reduction)
         _rescore_waiting(task, task.mesh.twin[h] // 3, cost_reduction)
     return work
@@ -175,7 +174,7 @@ def run(kernel, mesh, rules, space=None):
         `advance` for one energy, from `meshlab_willmore.search.entries`.
     mesh : Mesh
     rules : Rules
-    space : Space, optional
+    space : Bvh, optional
         The guard against self-intersections, up to date with the mesh, and so it stays. None: there
         is no such guard.
 
@@ -184,7 +183,7 @@ def run(kernel, mesh, rules, space=None):
     Progress
         Its state is `CONVERGED` or `STOPPED`.
     """
-    space = spaces.no_space() if space is None else space
+    space = inactive_bvh() if space is None else space
     waiting, queue = nothing_waits(len(space.order)), empty_queue(len(mesh.origin))
     progress = Progress(0, 0, 0.0, WORKING)
     for _ in range(MOST_PASSES):

@@ -31,7 +31,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..guards import space as spaces
+from ..guards.bvh import inactive_bvh, specialized
 from ..guards.cuts import EVER, blocker
 from ..mesh.halfedge import apex, flip, makes_new_edge
 from ..mesh.jit import at, inner, jit
@@ -197,7 +197,7 @@ def run(kernel, mesh, rules, space=None, threads=None):
         `score_each` or `score_in_lanes` for one energy, from `meshlab_willmore.search.entries`.
     mesh : Mesh
     rules : Rules
-    space : Space, optional
+    space : Bvh, optional
         As for `meshlab_willmore.search.greedy.run`.
     threads : int, optional
         As many as Numba is set to if left out. The result does not depend on it.
@@ -207,7 +207,7 @@ def run(kernel, mesh, rules, space=None, threads=None):
     Progress
         Its state is `CONVERGED` or `STOPPED`.
     """
-    space = spaces.without(spaces.no_space() if space is None else space)
+    space = specialized(inactive_bvh() if space is None else space)
     progress = Progress(len(mesh.origin), 0, 0.0, WORKING)
     with crew(threads) as share:
         for _ in range(MOST_PASSES):

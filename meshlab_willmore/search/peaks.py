@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .. import guards
-from ..guards import space as spaces
+from ..guards.bvh import expand
 from ..guards.cuts import has_rival, would_cut
 from ..mesh.halfedge import NONE, apex, following, makes_new_edge, previous
 from ..mesh.jit import at, inlined, inner, jit
@@ -109,7 +109,7 @@ def announce(look, number):
     for place in range(len(look.edges)):
         if look.verdict[at(place)] == IS_PEAK:
             h = np.int64(look.edges[at(place)])
-            spaces.grow(mesh, board.space, h, number)
+            expand(mesh, board.space, h, number)
             board.to_flip[at(h // 3)] = board.to_flip[at(mesh.twin[at(h)] // 3)] = h
 
 

@@ -7,8 +7,7 @@ the way there, and whether that way was gone to its end.
 import functools
 from typing import NamedTuple
 
-from ..guards import space as spaces
-from ..guards.space import Space
+from ..guards.bvh import Bvh, refitted
 from ..mesh.halfedge import Mesh
 from ..mesh.jit import jit
 from . import greedy
@@ -19,7 +18,7 @@ class State(NamedTuple):
     """A state of the mesh and its index, number of flips on the way, how that way ended."""
 
     mesh: Mesh
-    space: Space
+    space: Bvh
     flips: int
     state: int
 
@@ -60,7 +59,7 @@ def extend(state, search, rules):
         `maxflips` holds for the whole way.
     """
     mesh = copy_of(state.mesh)
-    space = spaces.renewed(state.space, mesh)
+    space = refitted(state.space, mesh)
     left = rules._replace(maxflips=rules.maxflips - state.flips)
     progress = search(mesh, left, space)
     return State(mesh, space, state.flips + progress.flips, progress.state)

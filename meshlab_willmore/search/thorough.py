@@ -19,7 +19,7 @@ import functools
 from collections.abc import Callable
 from typing import NamedTuple
 
-from ..guards import space as spaces
+from ..guards.bvh import inactive_bvh
 from ..mesh.status import stage
 from . import greedy, variable_depth
 from .rules import Rules
@@ -48,7 +48,7 @@ def run(kernels, preludes, mesh, rules, reach, space=None):
         start, and the best state is no worse than the one that it leads to from the mesh itself.
     reach : Reach
         How far chains go.
-    space : Space, optional
+    space : Bvh, optional
         The guard against self-intersections, up to date with the mesh. It holds for each flip.
 
     Returns
@@ -61,7 +61,7 @@ def run(kernels, preludes, mesh, rules, reach, space=None):
     def chains(at, left, around):
         return variable_depth.run(kernels.depth, kernels.greedy, at, left, reach, around)
 
-    begin = start_from(mesh, spaces.no_space() if space is None else space)
+    begin = start_from(mesh, inactive_bvh() if space is None else space)
     starts = 1 + len(preludes)
     with stage(f"start 1 of {starts}"):
         found = extend(begin, chains, rules)

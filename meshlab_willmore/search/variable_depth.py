@@ -42,7 +42,7 @@ import numpy as np
 
 from .. import guards
 from ..energy import delaunay
-from ..guards import space as spaces
+from ..guards.bvh import inactive_bvh, refit
 from ..mesh.halfedge import apex, flip, is_free, makes_new_edge
 from ..mesh.jit import generic, inner, jit
 from ..mesh.status import report
@@ -65,7 +65,7 @@ def _keep(task, length):
         for around in (h, mesh.twin[h]):
             task.touched[mesh.origin[around]] = task.touched[apex(mesh, around)] = True
         flip(mesh, h)
-        spaces.follow(mesh, task.space, h)
+        refit(mesh, task.space, h)
         # A later flip of the chain moves edges to other half-edges, but queues all these as well.
         append(mesh, task.pending, h)
         for place in range(ring_around(mesh, h, chain.ring)):
@@ -155,7 +155,7 @@ def run(kernel, descent, mesh, rules, reach, space=None, threads=None):
         A chain that would exceed `maxflips` is not made. Under the monotone rule no chain as a
         whole raises the Willmore energy; its single flips may.
     reach : Reach
-    space : Space, optional
+    space : Bvh, optional
         As for `meshlab_willmore.search.greedy.run`. It holds for each flip of a chain.
     threads : int, optional
         As many as Numba is set to if left out. The result does not depend on it.
@@ -165,7 +165,7 @@ def run(kernel, descent, mesh, rules, reach, space=None, threads=None):
     Progress
         Its state is `CONVERGED` or `STOPPED`.
     """
-    space = spaces.no_space() if space is None else space
+    space = inactive_bvh() if space is None else space
     progress = greedy.run(descent, mesh, rules, space)
     if progress.state == STOPPED:
         return progress
@@ -174,7 +174,7 @@ def run(kernel, descent, mesh, rules, reach, space=None, threads=None):
 
         def search(part, halted):
             begin = Progress(len(part.origin), 0, 0.0, WORKING)
-            return _search(kernel, part, rules, reach, spaces.no_space(), begin, None, halted)
+            return _search(kernel, part, rules, reach, inactive_bvh(), begin, None, halted)
 
         found, touched = regions.run(search, mesh, threads)
         progress = _sum(progress, found)

@@ -21,7 +21,7 @@ from meshlab_willmore import optimize
 from meshlab_willmore.energy import virtual, willmore
 from meshlab_willmore.energy.angles import radians, rough
 from meshlab_willmore.energy.kinds import KINDS
-from meshlab_willmore.guards import space as spaces
+from meshlab_willmore.guards.bvh import inactive_bvh
 from meshlab_willmore.mesh.build import build
 from meshlab_willmore.mesh.halfedge import is_free
 from meshlab_willmore.mesh.jit import jit
@@ -124,7 +124,7 @@ def prepared(points):
     vertices, faces = check_mesh(*meshes.torus(points, 0.3, 8))
     mesh = build(to_unit_scale(vertices, faces)[0], faces)
     rules = optimize._suited(optimize._rules(True, 90.0, None), KINDS[ENERGY], mesh)
-    board = board_of(mesh, rules, spaces.no_space())
+    board = board_of(mesh, rules, inactive_bvh())
     edges = free_edges(mesh, board.touched)
     edges = edges[: len(edges) // LANES * LANES]
     rows = blocks_of(mesh, edges)

@@ -5,7 +5,7 @@ import pytest
 
 from meshlab_willmore import guards
 from meshlab_willmore.energy import virtual, willmore
-from meshlab_willmore.guards.space import no_space
+from meshlab_willmore.guards.bvh import inactive_bvh
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import NONE, can_flip, flip
 from meshlab_willmore.search import annealing, greedy, rescoring, states
@@ -73,7 +73,7 @@ def test_the_walk_and_its_best_state_are_those_of_the_slow_one(name):
     loss = annealing._median_loss(WILLMORE, mesh, rules)
     assert loss == pytest.approx(np.median(losses) if losses else 0.0, rel=1e-12)
     seen = list(walk_slowly(states.copy_of(mesh), rules, SHORT, loss))
-    start = states.State(mesh, no_space(), 5, CONVERGED)
+    start = states.State(mesh, inactive_bvh(), 5, CONVERGED)
     last, best = annealing._anneal(WILLMORE, start, rules, SHORT, loss)
     assert last.flips == seen[-1][0] + 5
     assert last.flips > 20 + 5
@@ -99,7 +99,7 @@ def test_the_best_state_lies_on_the_way_not_at_its_end():
     """Hot until the end, so that the state on the way is the one that counts."""
     mesh, rules = MESHES["closed"](), rules_for("willmore")
     hot = Schedule(sweeps=30, seed=3, hot=1.0, cold=1.0)
-    begin = states.State(mesh, no_space(), 0, CONVERGED)
+    begin = states.State(mesh, inactive_bvh(), 0, CONVERGED)
     last, best = annealing._anneal(WILLMORE, begin, rules, hot, 1.0)
     assert 0 < best.flips < last.flips
     assert willmore.total(best.mesh) < willmore.total(last.mesh) - 1.0
@@ -153,7 +153,7 @@ def test_the_same_seed_gives_the_same_mesh_and_another_seed_another():
     for seed in (0, 0, 1):
         mesh = MESHES["closed"]()
         schedule = SHORT._replace(seed=seed, sweeps=8)
-        begin = states.State(mesh, no_space(), 0, CONVERGED)
+        begin = states.State(mesh, inactive_bvh(), 0, CONVERGED)
         results.append(annealing._anneal(WILLMORE, begin, rules, schedule, 2.0)[0])
     assert results[0].flips == results[1].flips != results[2].flips
     assert_equal(results[0].mesh, results[1].mesh)
@@ -214,7 +214,7 @@ def test_maxflips_counts_every_flip_on_the_way():
 
 def test_a_walk_stops_at_the_limit():
     rules = rules_for("willmore")._replace(maxflips=12)
-    begin = states.State(MESHES["closed"](), no_space(), 5, CONVERGED)
+    begin = states.State(MESHES["closed"](), inactive_bvh(), 5, CONVERGED)
     last, best = annealing._anneal(WILLMORE, begin, rules, SHORT, 2.0)
     assert last.flips == 12
     assert last.state == best.state == STOPPED

@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 
 from meshlab_willmore import guards
 from meshlab_willmore.energy import virtual, willmore
-from meshlab_willmore.guards.space import space_of
+from meshlab_willmore.guards.bvh import build_bvh
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import apex, can_flip, flip
 from meshlab_willmore.search import entries, greedy
@@ -122,7 +122,7 @@ def test_blocked_edges_are_tried_again_once_a_scan_would(energy, monotone, name)
     flips, _ = flips_by_scanning(
         scanned, rules, cost_reduction, lambda mesh, h: bool(brute.blockers(mesh, h))
     )
-    progress = greedy.run(kernel, searched, rules, space_of(searched))
+    progress = greedy.run(kernel, searched, rules, build_bvh(searched))
     validate_connectivity(searched)
     np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))
     assert progress.flips == flips

@@ -10,8 +10,7 @@ import pytest
 from meshlab_willmore import guards
 from meshlab_willmore.energy import willmore
 from meshlab_willmore.energy.kinds import KINDS
-from meshlab_willmore.guards import space as spaces
-from meshlab_willmore.guards.space import no_space, space_of
+from meshlab_willmore.guards.bvh import build_bvh, expand, inactive_bvh
 from meshlab_willmore.measure import self_intersections
 from meshlab_willmore.mesh import workers
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
@@ -126,7 +125,7 @@ def test_the_rounds_are_those_of_a_scan(energy, fold, monotone, name):
 
 def scored(mesh, rules, energy, space=None):
     """The board after the first score, its candidates, and their number."""
-    board = board_of(mesh, rules, no_space() if space is None else space)
+    board = board_of(mesh, rules, inactive_bvh() if space is None else space)
     KERNELS[energy].score(board, 0, len(board.touched))
     return board, lists.add_candidates(board, 0, len(board.touched), 0)
 
@@ -189,7 +188,7 @@ def test_the_order_of_the_flips_of_a_round_does_not_matter(energy, seed):
 
 def with_ranks(mesh, ranks, space=None):
     """A board on which just these edges have a rank."""
-    board = board_of(mesh, rules_for("willmore", FREE), no_space() if space is None else space)
+    board = board_of(mesh, rules_for("willmore", FREE), inactive_bvh() if space is None else space)
     for h, rank in ranks.items():
         board.rank[h] = board.rank[mesh.twin[h]] = rank
     return board
@@ -302,7 +301,7 @@ def test_maxflips_stops_on_the_way(energy, limit):
 @pytest.mark.slow
 def test_with_the_guard_edges_that_would_cut_are_tried_again(energy):
     mesh = build(*meshes.bumpy_sphere(150, bump=0.95))
-    space = space_of(mesh)
+    space = build_bvh(mesh)
     rules = rules_for(energy, FREE)
     progress = parallel_greedy.run(KERNELS[energy].score, mesh, rules, space)
     assert progress.state == CONVERGED
@@ -319,7 +318,7 @@ def test_two_flips_of_a_round_do_not_cut_each_other(gap):
     high = [(y, x, gap - z) for x, y, z in low]
     faces = np.array([(0, 1, 2), (1, 0, 3), (4, 5, 6), (5, 4, 7)], np.int32)
     mesh = build(np.array(low + high, float) / 4, faces)
-    space = space_of(mesh)
+    space = build_bvh(mesh)
     two = edges_of(mesh)
     assert [ends(mesh, h) for h in two] == [{0, 1}, {4, 5}]
     board = with_ranks(mesh, {two[0]: 1.0, two[1]: 2.0}, space)
@@ -349,7 +348,7 @@ def test_with_the_guard_too_the_number_of_threads_changes_nothing(seed, monkeypa
         mesh = build(vertices, faces)
         rules = rules_for("willmore", FREE)
         kernel = KERNELS["willmore"].score
-        parallel_greedy.run(kernel, mesh, rules, space_of(mesh), threads=threads)
+        parallel_greedy.run(kernel, mesh, rules, build_bvh(mesh), threads=threads)
         is_new = np.array([frozenset(f) not in known for f in faces_of(mesh).tolist()])
         assert is_new.any()
         assert not (self_intersections(vertices, faces_of(mesh)) & is_new).any()
@@ -388,7 +387,7 @@ def test_what_a_cut_forbade_before_a_round_is_not_flipped_in_it():
 @HEAVY
 def test_what_must_not_be_flipped_waits_before_the_first_flip_of_a_round():
     mesh = build(*meshes.crumpled(11, noise=1.5))
-    board, count = scored(mesh, rules_for("willmore", FREE), "willmore", space_of(mesh))
+    board, count = scored(mesh, rules_for("willmore", FREE), "willmore", build_bvh(mesh))
     verdict, chosen, first = peaks_of(board, board.candidates[:count])
     is_peak = chosen.verdict == IS_PEAK
     assert IS_BLOCKED in verdict
@@ -405,8 +404,8 @@ def test_what_must_not_be_flipped_waits_before_the_first_flip_of_a_round():
 
 def test_a_new_board_forgets_the_rounds_of_a_run_before():
     mesh = build(*meshes.bumpy_sphere(60))
-    space = space_of(mesh)
-    spaces.grow(mesh, space, 0, 3)
+    space = build_bvh(mesh)
+    expand(mesh, space, 0, 3)
     assert space.changed.max() == space.changed_below.max() == 3
     board_of(mesh, rules_for("willmore"), space)
     assert not space.changed.any()

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from meshlab_willmore.energy.kinds import KINDS
-from meshlab_willmore.guards.space import space_of
+from meshlab_willmore.guards.bvh import build_bvh
 from meshlab_willmore.measure import willmore_energy_of
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import NONE, can_flip, flip, is_free
@@ -180,7 +180,7 @@ def test_with_the_guard_or_a_limit_the_mesh_is_searched_as_a_whole(monkeypatch):
 
     monkeypatch.setattr(regions, "run", run)
     mesh = build(*meshes.bumpy_sphere(60))
-    searched(mesh, "willmore", space=space_of(mesh))
+    searched(mesh, "willmore", space=build_bvh(mesh))
     kernels = KERNELS["willmore"]
     limited = rules_for("willmore")._replace(maxflips=10**6)
     variable_depth.run(kernels.depth, kernels.greedy, mesh, limited, REACH)

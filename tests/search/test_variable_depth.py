@@ -7,8 +7,7 @@ import pytest
 
 from meshlab_willmore import guards
 from meshlab_willmore.energy import delaunay, virtual, willmore
-from meshlab_willmore.guards import space as spaces
-from meshlab_willmore.guards.space import no_space, space_of
+from meshlab_willmore.guards.bvh import build_bvh, inactive_bvh, refitted
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import NONE, apex, can_flip, flip, following, previous
 from meshlab_willmore.mesh.jit import generic, jit
@@ -211,13 +210,13 @@ def test_chains_blocked_by_cuts_are_tried_again_once_a_scan_would(reach, name):
     def is_blocked(mesh, h):
         return bool(brute.blockers(mesh, h))
 
-    flips = greedy.run(descent, scanned, rules, space_of(scanned)).flips
+    flips = greedy.run(descent, scanned, rules, build_bvh(scanned)).flips
     for stage in dict.fromkeys((reach._replace(breadth=1), reach)):
         rounds = 1 if stage != reach else MANY
         scan = Scan(rules, stage, rank, judge, is_blocked)
         flips += sum(scan.run(scanned, rounds))
     flips += sum(scan.doubts(scanned))
-    space = space_of(searched)
+    space = build_bvh(searched)
     progress = variable_depth.run(kernel, descent, searched, rules, reach, space)
     np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))
     assert progress.flips == flips
@@ -225,7 +224,7 @@ def test_chains_blocked_by_cuts_are_tried_again_once_a_scan_would(reach, name):
     search("willmore", unguarded, rules, reach)
     assert (faces_of(unguarded) != faces_of(searched)).any()
     # The index has followed the flips that were tried, made and taken back.
-    np.testing.assert_array_equal(space.box, spaces.renewed(space, searched).box)
+    np.testing.assert_array_equal(space.box, refitted(space, searched).box)
 
 
 def new_task(mesh, rules, reach):
@@ -239,7 +238,7 @@ def new_task(mesh, rules, reach):
         chains.no_chain(reach),
         touched,
         rules,
-        no_space(),
+        inactive_bvh(),
         np.zeros(len(mesh.origin), bool),
         np.zeros(1, bool),
     )

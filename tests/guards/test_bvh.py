@@ -4,7 +4,18 @@ import numpy as np
 import pytest
 
 from meshlab_willmore.guards import cuts
-from meshlab_willmore.guards import space as spaces
+from meshlab_willmore.guards.bvh import (
+    LEAF_FACES,
+    build_bvh,
+    expand,
+    inactive_bvh,
+    leaf_range,
+    next_leaf,
+    refit,
+    refitted,
+    skip_subtree,
+    specialized,
+)
 from meshlab_willmore.measure import self_intersections
 from meshlab_willmore.mesh.build import build, faces_of
 from meshlab_willmore.mesh.halfedge import NONE, can_flip, flip
@@ -52,15 +63,15 @@ def unit_mesh(vertices, faces):
     return build(scaled, faces), exponent
 
 
-def shuffle(mesh, space, count, rng, number=0):
+def shuffle(mesh, bvh, count, rng, number=0):
     """Make random flips, and let the index follow, or grow in a round."""
     for h in rng.integers(0, len(mesh.origin), count):
         if mesh.twin[h] != NONE and can_flip(mesh, h):
             flip(mesh, h)
             if number:
-                spaces.grow(mesh, space, h, number)
+                expand(mesh, bvh, h, number)
             else:
-                spaces.follow(mesh, space, h)
+                refit(mesh, bvh, h)
 
 
 @pytest.mark.heavy
@@ -68,18 +79,18 @@ def shuffle(mesh, space, count, rng, number=0):
 @pytest.mark.slow
 def test_the_index_finds_what_all_pairs_tell(name):
     mesh, exponent = unit_mesh(*MESHES[name]())
-    space = spaces.space_of(mesh, exponent)
+    bvh = build_bvh(mesh, exponent)
     rng = np.random.default_rng(0)
     for flips in (0, 30, 200):
-        shuffle(mesh, space, flips, rng)
+        shuffle(mesh, bvh, flips, rng)
         before = brute.copy_of(mesh)
         for h in np.flatnonzero(mesh.twin != NONE)[::3]:
             if not can_flip(mesh, h):
                 continue
-            blocking = brute.blockers(mesh, h, space.area_scale)
-            found = int(cuts.blocker(mesh, space, h, cuts.EVER))
+            blocking = brute.blockers(mesh, h, bvh.area_scale)
+            found = int(cuts.blocker(mesh, bvh, h, cuts.EVER))
             assert (found in blocking) if blocking else (found == NONE)
-            assert bool(cuts.would_cut(mesh, space, h)) == bool(blocking)
+            assert bool(cuts.would_cut(mesh, bvh, h)) == bool(blocking)
         np.testing.assert_array_equal(mesh.origin, before.origin)
 
 
@@ -90,7 +101,7 @@ def test_cutting_faces_are_those_of_clipping(name):
     vertices, faces = MESHES[name]()
     mesh = build(np.asarray(vertices, float), faces)
     for flips in (0, 100):
-        shuffle(mesh, spaces.no_space(), flips, np.random.default_rng(1))
+        shuffle(mesh, inactive_bvh(), flips, np.random.default_rng(1))
         marked = self_intersections(vertices, faces_of(mesh))
         wanted = solids.cutting_faces(vertices, faces_of(mesh))
         assert set(np.flatnonzero(marked).tolist()) == wanted
@@ -99,71 +110,71 @@ def test_cutting_faces_are_those_of_clipping(name):
 @pytest.mark.parametrize("name", MESHES)
 def test_boxes_follow_the_flips(name):
     mesh, _ = unit_mesh(*MESHES[name]())
-    space = spaces.space_of(mesh)
-    shuffle(mesh, space, 200, np.random.default_rng(2))
-    np.testing.assert_array_equal(spaces.renewed(space, mesh).box, space.box)
+    bvh = build_bvh(mesh)
+    shuffle(mesh, bvh, 200, np.random.default_rng(2))
+    np.testing.assert_array_equal(refitted(bvh, mesh).box, bvh.box)
     corners = mesh.vertices[faces_of(mesh)]
-    np.testing.assert_array_equal(space.box[0, :3], corners.min(axis=(0, 1)))
-    np.testing.assert_array_equal(space.box[0, 3:], corners.max(axis=(0, 1)))
+    np.testing.assert_array_equal(bvh.box[0, :3], corners.min(axis=(0, 1)))
+    np.testing.assert_array_equal(bvh.box[0, 3:], corners.max(axis=(0, 1)))
 
 
 def test_boxes_follow_flips_and_the_way_back():
     mesh, _ = unit_mesh(*meshes.bumpy_sphere(50))
-    space = spaces.space_of(mesh)
-    before, changes = space.box.copy(), 0
+    bvh = build_bvh(mesh)
+    before, changes = bvh.box.copy(), 0
     for h in range(len(mesh.origin)):
         if not can_flip(mesh, h):
             continue
         flip(mesh, h)
-        spaces.follow(mesh, space, h)
-        changes += (space.box != before).any()
+        refit(mesh, bvh, h)
+        changes += (bvh.box != before).any()
         for _ in range(3):
             flip(mesh, h)
-        spaces.follow(mesh, space, h)
-        np.testing.assert_array_equal(space.box, before)
+        refit(mesh, bvh, h)
+        np.testing.assert_array_equal(bvh.box, before)
     assert changes > 10
 
 
 @pytest.mark.parametrize("name", MESHES)
 def test_boxes_that_grow_hold_what_is_below_and_what_was(name):
     mesh, _ = unit_mesh(*MESHES[name]())
-    space = spaces.space_of(mesh)
-    lowest, highest = space.box[:, :3].copy(), space.box[:, 3:].copy()
-    rounds = np.zeros(len(space.order), int)
+    bvh = build_bvh(mesh)
+    lowest, highest = bvh.box[:, :3].copy(), bvh.box[:, 3:].copy()
+    rounds = np.zeros(len(bvh.order), int)
     for number in (1, 2, 5):
         for h in np.random.default_rng(number).integers(0, len(mesh.origin), 40):
             if mesh.twin[h] == NONE or not can_flip(mesh, h):
                 continue
             flip(mesh, h)
-            spaces.grow(mesh, space, h, number)
+            expand(mesh, bvh, h, number)
             rounds[[h // 3, mesh.twin[h] // 3]] = number
-            tight = spaces.renewed(space, mesh).box
+            tight = refitted(bvh, mesh).box
             lowest, highest = np.minimum(lowest, tight[:, :3]), np.maximum(highest, tight[:, 3:])
-        np.testing.assert_array_equal(space.box[:, :3], lowest)
-        np.testing.assert_array_equal(space.box[:, 3:], highest)
-        np.testing.assert_array_equal(space.changed, rounds)
-        below = np.zeros(len(space.box), int)
-        np.maximum.at(below, len(space.box) // 2 + space.leaf, rounds)
+        np.testing.assert_array_equal(bvh.box[:, :3], lowest)
+        np.testing.assert_array_equal(bvh.box[:, 3:], highest)
+        np.testing.assert_array_equal(bvh.changed, rounds)
+        below = np.zeros(len(bvh.box), int)
+        np.maximum.at(below, len(bvh.box) // 2 + bvh.leaf, rounds)
         for node in range(len(below) // 2 - 1, -1, -1):
             below[node] = below[2 * node + 1 : 2 * node + 3].max()
-        np.testing.assert_array_equal(space.changed_below, below)
+        np.testing.assert_array_equal(bvh.changed_below, below)
 
 
 @pytest.mark.heavy
 @pytest.mark.parametrize("name", MESHES)
 def test_of_faces_that_changed_in_a_round_those_are_found_that_all_pairs_tell(name):
     mesh, exponent = unit_mesh(*MESHES[name]())
-    space = spaces.space_of(mesh, exponent)
+    bvh = build_bvh(mesh, exponent)
     rng = np.random.default_rng(3)
     for number in (1, 2):
-        shuffle(mesh, space, 30, rng, number)
+        shuffle(mesh, bvh, 30, rng, number)
     for h in np.flatnonzero(mesh.twin != NONE)[::3]:
         if not can_flip(mesh, h):
             continue
-        blocking = brute.blockers(mesh, h, space.area_scale)
+        blocking = brute.blockers(mesh, h, bvh.area_scale)
         for since in (1, 2, 3):
-            young = {f for f in blocking if space.changed[f] >= since and f != h // 3}
-            found = int(cuts.blocker(mesh, space, h, since))
+            young = {f for f in blocking if bvh.changed[f] >= since and f != h // 3}
+            found = int(cuts.blocker(mesh, bvh, h, since))
             assert (found in young) if young else (found == NONE)
 
 
@@ -173,18 +184,18 @@ def test_of_faces_that_changed_in_a_round_those_are_found_that_all_pairs_tell(na
 def test_rivals_are_those_that_all_pairs_tell(name):
     """Flips of a round: none has a face of another one's, but their new faces may cut."""
     mesh, exponent = unit_mesh(*MESHES[name]())
-    space = spaces.space_of(mesh, exponent)
-    to_flip = np.full(len(space.order), -1, np.int32)
+    bvh = build_bvh(mesh, exponent)
+    to_flip = np.full(len(bvh.order), -1, np.int32)
     for h in np.random.default_rng(4).permutation(len(mesh.origin)).tolist():
         own = [h // 3, int(mesh.twin[h]) // 3]
         if mesh.twin[h] != NONE and can_flip(mesh, h) and (to_flip[own] == -1).all():
             to_flip[own] = h
-            spaces.grow(mesh, space, h, 7)
+            expand(mesh, bvh, h, 7)
     flipped = brute.copy_of(mesh)
     chosen = sorted(set(to_flip[to_flip >= 0].tolist()))
     for h in chosen:
         flip(flipped, h)
-    corners, area_scale = faces_of(flipped), space.area_scale
+    corners, area_scale = faces_of(flipped), bvh.area_scale
     new = np.flatnonzero(to_flip >= 0)
     for h in chosen:
         own = [h // 3, int(mesh.twin[h]) // 3]
@@ -193,32 +204,32 @@ def test_rivals_are_those_that_all_pairs_tell(name):
             for f in own
             for e in set(new.tolist()) - set(own)
         )
-        assert bool(cuts.has_rival(mesh, space, h, 7, to_flip)) == wanted
+        assert bool(cuts.has_rival(mesh, bvh, h, 7, to_flip)) == wanted
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 4, 5, 8, 9, 31, 64, 65, 1000])
 def test_every_face_has_a_leaf_of_few(count):
     vertices, faces = meshes.grid(25, 20)
     mesh = build(vertices, faces[:count])
-    space = spaces.space_of(mesh)
-    assert sorted(space.order.tolist()) == list(range(count))
-    leaves = (len(space.box) + 1) // 2
-    sizes = np.bincount(space.leaf, minlength=leaves)
-    assert sizes.max() <= spaces.LEAF_FACES
+    bvh = build_bvh(mesh)
+    assert sorted(bvh.order.tolist()) == list(range(count))
+    leaves = (len(bvh.box) + 1) // 2
+    sizes = np.bincount(bvh.leaf, minlength=leaves)
+    assert sizes.max() <= LEAF_FACES
     assert sizes.max() - sizes.min() <= 1
-    seen = [space.order[slice(*spaces.faces_at(space, leaves - 1 + x))] for x in range(leaves)]
+    seen = [bvh.order[slice(*leaf_range(bvh, leaves - 1 + x))] for x in range(leaves)]
     for leaf, members in enumerate(seen):
-        assert (space.leaf[members] == leaf).all()
+        assert (bvh.leaf[members] == leaf).all()
     assert sum(map(len, seen)) == count
 
 
 def test_the_index_is_small_and_splits_by_place():
     vertices, faces = meshes.torus(4000, 0.3, 1)
     mesh, _ = unit_mesh(vertices, faces)
-    space = spaces.space_of(mesh)
-    assert sum(array.nbytes for array in space[2:]) <= 60 * len(faces)
+    bvh = build_bvh(mesh)
+    assert sum(array.nbytes for array in bvh[2:]) <= 60 * len(faces)
     # Leaves of neighbours: their boxes are small.
-    leaves = space.box[len(space.box) // 2 :]
+    leaves = bvh.box[len(bvh.box) // 2 :]
     assert np.median((leaves[:, 3:] - leaves[:, :3]).max(axis=1)) < 0.2
 
 
@@ -227,14 +238,14 @@ def test_one_huge_face_costs_little():
     vertices, faces = meshes.bumpy_sphere(2000)
     vertices, faces = meshes.with_giant_face(vertices * 1e-6, faces, GIANT)
     mesh, _ = unit_mesh(vertices, faces)
-    space = spaces.space_of(mesh)
+    bvh = build_bvh(mesh)
     visited = []
     for f in range(0, len(faces) - 1, 100):
         box = cuts.box_of(cuts.face_at(mesh, f))
-        node, leaves = spaces.next_leaf(space, 0, box, cuts.EVER), 0
+        node, leaves = next_leaf(bvh, 0, box, cuts.EVER), 0
         while node != NONE:
             leaves += 1
-            node = spaces.next_leaf(space, spaces.after(node), box, cuts.EVER)
+            node = next_leaf(bvh, skip_subtree(node), box, cuts.EVER)
         visited.append(leaves)
     assert min(visited) >= 1
     assert np.mean(visited) < 30
@@ -242,58 +253,58 @@ def test_one_huge_face_costs_little():
 
 def test_a_walk_meets_every_leaf_once_in_order():
     mesh, _ = unit_mesh(*meshes.bumpy_sphere(200))
-    space = spaces.space_of(mesh)
+    bvh = build_bvh(mesh)
     everything = (-np.inf,) * 3 + (np.inf,) * 3
-    node, walked = spaces.next_leaf(space, 0, everything, cuts.EVER), []
+    node, walked = next_leaf(bvh, 0, everything, cuts.EVER), []
     while node != NONE:
         walked.append(int(node))
-        node = spaces.next_leaf(space, spaces.after(node), everything, cuts.EVER)
-    leaves = (len(space.box) + 1) // 2
+        node = next_leaf(bvh, skip_subtree(node), everything, cuts.EVER)
+    leaves = (len(bvh.box) + 1) // 2
     assert walked == list(range(leaves - 1, 2 * leaves - 1))
 
 
 def test_without_a_guard_nothing_is_refused():
     mesh, _ = unit_mesh(*meshes.crumpled(4))
-    space = spaces.no_space()
-    assert not any(len(array) for array in space[2:])
+    bvh = inactive_bvh()
+    assert not any(len(array) for array in bvh[2:])
     for h in range(len(mesh.origin)):
         if can_flip(mesh, h):
-            assert not cuts.would_cut(mesh, space, h)
-    spaces.follow(mesh, space, 0)
-    assert cuts.blocker(mesh, space, 0, cuts.EVER) == NONE
-    assert not spaces.space_of(build(np.empty((0, 3)), np.empty((0, 3), np.int32))).active
+            assert not cuts.would_cut(mesh, bvh, h)
+    refit(mesh, bvh, 0)
+    assert cuts.blocker(mesh, bvh, 0, cuts.EVER) == NONE
+    assert not build_bvh(build(np.empty((0, 3)), np.empty((0, 3), np.int32))).active
 
 
 @jit
-def _flipped(mesh, space, h):
+def _flipped(mesh, bvh, h):
     """What a search asks and does."""
-    refused = cuts.would_cut(mesh, space, h) or cuts.blocker(mesh, space, h, cuts.EVER) != NONE
+    refused = cuts.would_cut(mesh, bvh, h) or cuts.blocker(mesh, bvh, h, cuts.EVER) != NONE
     if not refused:
         flip(mesh, h)
-        spaces.follow(mesh, space, h)
+        refit(mesh, bvh, h)
     return refused
 
 
-@pytest.mark.parametrize("kind", [spaces.no_space, lambda: spaces.without(spaces.no_space())])
+@pytest.mark.parametrize("kind", [inactive_bvh, lambda: specialized(inactive_bvh())])
 @pytest.mark.slow
 def test_kernels_refuse_nothing_without_a_guard(kind):
     """Of the second kind they could not even be compiled with the guard: it lacks the arrays."""
     mesh, _ = unit_mesh(*meshes.crumpled(4))
-    space = kind()
-    assert spaces.renewed(space, mesh).active is False
+    bvh = kind()
+    assert refitted(bvh, mesh).active is False
     h = next(h for h in range(len(mesh.origin)) if can_flip(mesh, h))
     before = mesh.origin.copy()
-    assert not _flipped(mesh, space, h)
+    assert not _flipped(mesh, bvh, h)
     assert (mesh.origin != before).any()
 
 
 def test_an_active_space_stays_as_it_is_and_is_followed_in_kernels():
     mesh, _ = unit_mesh(*meshes.bumpy_sphere(60))
-    space = spaces.space_of(mesh)
-    assert spaces.without(space) is space
-    before = space.box.copy()
+    bvh = build_bvh(mesh)
+    assert specialized(bvh) is bvh
+    before = bvh.box.copy()
     for h in range(len(mesh.origin)):
         if can_flip(mesh, h):
-            _flipped(mesh, space, h)
-    assert (space.box != before).any()
-    np.testing.assert_array_equal(space.box, spaces.renewed(space, mesh).box)
+            _flipped(mesh, bvh, h)
+    assert (bvh.box != before).any()
+    np.testing.assert_array_equal(bvh.box, refitted(bvh, mesh).box)

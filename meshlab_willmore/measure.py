@@ -15,7 +15,7 @@ from .energy.triangles import corners
 from .energy.willmore import edge_angle, edge_turn
 from .guards import triangle_shape
 from .guards.bvh import build_bvh
-from .guards.cuts import mark_cuts
+from .guards.intersections import mark_intersecting
 from .mesh.build import build, interior_vertices
 from .mesh.halfedge import Mesh
 from .mesh.jit import at, jit
@@ -211,7 +211,7 @@ def self_intersections(vertices, faces):
     space = build_bvh(mesh)
     marked = np.zeros(len(mesh.origin) // 3, np.bool_)
     for start in range(0, len(marked), SLICE):
-        mark_cuts(mesh, space, marked, start, min(start + SLICE, len(marked)))
+        mark_intersecting(mesh, space, marked, start, min(start + SLICE, len(marked)))
     return marked
 
 

@@ -10,7 +10,7 @@ import pytest
 from meshlab_willmore.measure import self_intersections
 from meshlab_willmore.optimize import KERNELS, SEARCHES, optimize_flips
 from tests import meshes
-from tests.guards.test_rounded import counted
+from tests.guards.test_meshlab_tests import counted
 
 COW = Path(pymeshlab.__file__).parent / "tests" / "sample_meshes" / "cow.obj"
 

@@ -1,8 +1,8 @@
 """Which flips are allowed beyond what the connectivity says.
 
-Locks, set once for the input; the fold guard, for the surface and, in `mapping`, for textures; and,
-in `space`, the guard against self-intersections, with what it stands on: `predicates`, `triangles`,
-`rounded`, `faces`.
+`locks` are set once for the input. `fold` keeps the surface from folding, and `mapping` textures.
+`intersections` keeps faces from intersecting others: `bvh` finds those nearby, `triangles` tests
+them exactly, with the signs of `predicates`, and `meshlab_tests` as MeshLab would.
 """
 
 from .fold import (

@@ -61,7 +61,7 @@ def dihedral_angle(mesh, h):
 
 @inlined
 def folds(mesh, h, limits):
-    """Tell whether to flip `h` would fold the surface, make a sliver, or fold a texture mapping.
+    """Whether to flip `h` would fold the surface, make a sliver, or fold a texture mapping.
 
     True if the dihedral angle of the new edge exceeds both the old one and the limit, if the worse
     shape of the two faces falls below both the old one and the limit, or if `turns_over` says so.

@@ -74,7 +74,7 @@ def lock_seams(mesh, uv):
 
 @inner
 def _is_finite(uv, a):
-    """Tell whether all texture coordinates of a corner are finite."""
+    """Whether all texture coordinates of a corner are finite."""
     is_finite = True
     for column in range(uv.shape[1]):
         is_finite &= math.isfinite(uv[at(a), at(column)])
@@ -83,7 +83,7 @@ def _is_finite(uv, a):
 
 @inner
 def _differ(uv, a, b):
-    """Tell whether two corners have different texture coordinates."""
+    """Whether two corners have different texture coordinates."""
     differ = False
     for column in range(uv.shape[1]):
         differ |= uv[at(a), at(column)] != uv[at(b), at(column)]
@@ -92,7 +92,7 @@ def _differ(uv, a, b):
 
 @inner
 def _is_degenerate(mesh, h):
-    """Tell whether one of the two faces at `h` has no normal to speak of."""
+    """Whether one of the two faces at `h` has no normal to speak of."""
     i, j, k, l = diamond(mesh, h)
     return min(triangle_shape(i, j, k), triangle_shape(j, i, l)) < CREASE_SHAPE
 

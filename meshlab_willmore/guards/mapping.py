@@ -122,7 +122,7 @@ def _turns_over_in(mesh, h, uv, first):
 
 @inner
 def turns_over(mesh, h):
-    """Tell whether the flip of `h` would turn a texture triangle over or make it flat.
+    """Whether the flip of `h` would turn a texture triangle over or make it flat.
 
     Parameters
     ----------

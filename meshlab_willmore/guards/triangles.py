@@ -45,7 +45,7 @@ def _is_in_line(a, b, c):
 
 @inner
 def _is_in_box(p, a, b):
-    """Tell whether `p` is in the box around `a` and `b`."""
+    """Whether `p` is in the box around `a` and `b`."""
     return (
         min(a.x, b.x) <= p.x <= max(a.x, b.x)
         and min(a.y, b.y) <= p.y <= max(a.y, b.y)
@@ -55,7 +55,7 @@ def _is_in_box(p, a, b):
 
 @inner
 def _is_between(p, a, b):
-    """Tell whether `p` is on the closed segment from `a` to `b`."""
+    """Whether `p` is on the closed segment from `a` to `b`."""
     return _is_in_box(p, a, b) and _is_in_line(p, a, b)
 
 
@@ -72,7 +72,7 @@ def _spans_overlap(p, q, a, b, axis):
 
 @inner
 def _shadows_meet(p, q, a, b, axis):
-    """Tell whether the shadows of two segments along `axis` share a point."""
+    """Whether the shadows of two segments along `axis` share a point."""
     if not (
         _spans_overlap(p, q, a, b, (axis + 1) % AXES)
         and _spans_overlap(p, q, a, b, (axis + 2) % AXES)
@@ -87,7 +87,7 @@ def _shadows_meet(p, q, a, b, axis):
 
 @inner
 def segments_meet(p, q, a, b):
-    """Tell whether the closed segments p-q and a-b share a point."""
+    """Whether the closed segments p-q and a-b share a point."""
     for axis in range(AXES):
         if not _shadows_meet(p, q, a, b, axis):
             return False
@@ -96,7 +96,7 @@ def segments_meet(p, q, a, b):
 
 @inner
 def _is_inside(p, a, b, c):
-    """Tell whether `p`, in a plane with the triangle, is in its interior."""
+    """Whether `p`, in a plane with the triangle, is in its interior."""
     for axis in range(AXES):
         first = turn(a, b, p, axis)
         if first != 0 and turn(b, c, p, axis) == first and turn(c, a, p, axis) == first:
@@ -106,7 +106,7 @@ def _is_inside(p, a, b, c):
 
 @inner
 def segment_meets(p, q, a, b, c):
-    """Tell whether the closed segment p-q and the closed triangle (a, b, c) share a point."""
+    """Whether the closed segment p-q and the closed triangle (a, b, c) share a point."""
     at_p, at_q = orient3d(a, b, c, p), orient3d(a, b, c, q)
     if at_p * at_q > 0:
         return False
@@ -125,14 +125,14 @@ def _meets_two(p, q, b, c, a):
 
 @inner
 def _is_beside(a, b, c, p, q, r):
-    """Tell whether p, q, r are strictly on one side of the plane of (a, b, c)."""
+    """Whether p, q, r are strictly on one side of the plane of (a, b, c)."""
     first = orient3d(a, b, c, p)
     return first != 0 and orient3d(a, b, c, q) == first and orient3d(a, b, c, r) == first
 
 
 @inner
 def triangles_meet(a, b, c, p, q, r):
-    """Tell whether two closed triangles share a point.
+    """Whether two closed triangles share a point.
 
     If they do, a side of one of them meets the other.
     """
@@ -166,7 +166,7 @@ def _meet_besides(s, a, b, c, d):
 
 @inlined
 def _is_ahead(w, a, least):
-    """Tell whether the product of `w` and `a`, a rounded difference, is more than `least` >= 0.
+    """Whether the product of `w` and `a`, a rounded difference, is more than `least` >= 0.
 
     True only where no rounding can be the cause.
     """
@@ -181,7 +181,7 @@ def _extent(a):
 
 @inner
 def are_apart(s, a, b, c, d, limit, share):
-    """Tell whether a plane through `s` is seen to have a, b on one side and c, d on the other.
+    """Whether a plane through `s` is seen to have a, b on one side and c, d on the other.
 
     It is the one that halves the angle between the middles of a-b and c-d; nearly all neighbours
     round a vertex are told apart by it. The four points must be farther from it than `limit`, and
@@ -210,7 +210,7 @@ def are_apart(s, a, b, c, d, limit, share):
 
 @inner
 def meet_besides(s, a, b, c, d):
-    """Tell whether the triangles (s, a, b) and (s, c, d) share a point besides `s`."""
+    """Whether the triangles (s, a, b) and (s, c, d) share a point besides `s`."""
     # A triangle with s on its far side is two segments from s.
     one_is_flat, other_is_flat = _is_between(s, a, b), _is_between(s, c, d)
     for first in range(2 if one_is_flat else 1):
@@ -231,7 +231,7 @@ def meet_besides(s, a, b, c, d):
 
 @inner
 def _are_ahead(s, t, a, b):
-    """Tell whether `a` and `b`, on the line of `s` and `t`, are both beyond `t`."""
+    """Whether `a` and `b`, on the line of `s` and `t`, are both beyond `t`."""
     for axis in range(AXES):
         x, y = _coordinate(s, axis), _coordinate(t, axis)
         one, other = _coordinate(a, axis), _coordinate(b, axis)
@@ -242,7 +242,7 @@ def _are_ahead(s, t, a, b):
 
 @inner
 def meet_beyond(s, t, a, b):
-    """Tell whether the triangles (s, t, a) and (s, t, b) share a point off the segment s-t."""
+    """Whether the triangles (s, t, a) and (s, t, b) share a point off the segment s-t."""
     if orient3d(s, t, a, b) != 0:
         return False
     for axis in range(AXES):

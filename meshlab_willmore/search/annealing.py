@@ -31,8 +31,8 @@ from typing import NamedTuple
 import numpy as np
 
 from .. import guards
-from ..guards import cuts
 from ..guards.bvh import Bvh, inactive_bvh, refit, refitted
+from ..guards.intersections import would_intersect
 from ..mesh.halfedge import NONE, Mesh, flip, is_free, makes_new_edge
 from ..mesh.jit import generic, inner
 from ..mesh.status import report
@@ -144,7 +144,7 @@ def advance(task, walk, draws, temperature, judge):
         # A cost reduction of minus infinity never passes.
         if not (gain >= 0.0 or draws[s, 1] < np.exp(gain / temperature)):
             continue
-        if not may_flip(mesh, h, rules) or cuts.would_cut(mesh, task.space, h):
+        if not may_flip(mesh, h, rules) or would_intersect(mesh, task.space, h):
             continue
         if flips == rules.maxflips:
             state = STOPPED

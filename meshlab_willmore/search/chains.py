@@ -9,8 +9,8 @@ import numpy as np
 
 from .. import guards
 from ..energy import willmore
-from ..guards import cuts
 from ..guards.bvh import Bvh, refit
+from ..guards.intersections import would_intersect
 from ..mesh.halfedge import (
     NONE,
     Mesh,
@@ -185,7 +185,7 @@ def _may_flip(task, h):
         return False
     if not makes_new_edge(mesh, h):
         return False
-    if cuts.would_cut(mesh, task.space, h):
+    if would_intersect(mesh, task.space, h):
         task.refused[0] = True
         return False
     return True

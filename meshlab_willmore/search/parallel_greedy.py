@@ -32,7 +32,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..guards.bvh import inactive_bvh, specialized
-from ..guards.cuts import EVER, blocker
+from ..guards.intersections import ANY_ROUND, blocking_face
 from ..mesh.halfedge import apex, flip, makes_new_edge
 from ..mesh.jit import at, inner, jit
 from ..mesh.status import report
@@ -84,14 +84,14 @@ def _is_refused(board, h, verdict, is_contested, number):
         return True
     if verdict == IS_BLOCKED:
         # Nothing was flipped yet in this round, so that the face is still there.
-        must_wait(board, h, blocker(mesh, board.space, h, EVER))
+        must_wait(board, h, blocking_face(mesh, board.space, h, ANY_ROUND))
         return True
     if board.is_tie[at(h)] and brings_back(mesh, board.gone, h):
         board.kept_away[0] = True
         return True
     if not is_contested:
         return False
-    return must_wait(board, h, blocker(mesh, board.space, h, number))
+    return must_wait(board, h, blocking_face(mesh, board.space, h, number))
 
 
 class Done(NamedTuple):

@@ -13,7 +13,7 @@ import numpy as np
 
 from .. import guards
 from ..guards.bvh import expand
-from ..guards.cuts import has_rival, would_cut
+from ..guards.intersections import intersects_another_flip, would_intersect
 from ..mesh.halfedge import NONE, apex, following, makes_new_edge, previous
 from ..mesh.jit import at, inlined, inner, jit
 from .board import Board
@@ -82,7 +82,7 @@ def find_peaks(look, start, stop):
         elif not makes_new_edge(board.mesh, h):
             verdict = IS_JOINED
         else:
-            verdict = IS_BLOCKED if would_cut(board.mesh, board.space, h) else IS_PEAK
+            verdict = IS_BLOCKED if would_intersect(board.mesh, board.space, h) else IS_PEAK
         look.verdict[at(place)] = verdict
 
 
@@ -128,7 +128,7 @@ def find_rivals(rivals, start, stop):
     for place in range(start, stop):
         if look.verdict[at(place)] == IS_PEAK:
             h = np.int64(look.edges[at(place)])
-            if has_rival(board.mesh, board.space, h, rivals.number, board.to_flip):
+            if intersects_another_flip(board.mesh, board.space, h, rivals.number, board.to_flip):
                 rivals.contested[at(place)] = True
 
 

@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 from .. import guards
-from ..guards import cuts
+from ..guards.intersections import ANY_ROUND, blocking_face
 from ..mesh.halfedge import NONE, apex
 from ..mesh.jit import inner
 from .pairs import contains
@@ -94,7 +94,7 @@ def is_blocked(task, h):
     h : int
         Half-edge that may be flipped.
     """
-    return must_wait(task, h, cuts.blocker(task.mesh, task.space, h, cuts.EVER))
+    return must_wait(task, h, blocking_face(task.mesh, task.space, h, ANY_ROUND))
 
 
 @inner

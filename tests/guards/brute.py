@@ -1,6 +1,11 @@
 """The guard against self-intersections without an index: every face is tried."""
 
-from meshlab_willmore.guards import faces
+from meshlab_willmore.guards.intersections import (
+    face_of,
+    intersect,
+    meshlab_may_count,
+    shared_vertices,
+)
 from meshlab_willmore.mesh.build import faces_of
 from meshlab_willmore.mesh.halfedge import flip
 
@@ -17,11 +22,12 @@ def copy_of(mesh):
 def are_refused(vertices, corners, f, g, area_scale):
     """Whether the faces f and g of `corners` (m, 3) cut each other, or MeshLab may say so."""
     f, g = min(f, g), max(f, g)
-    one, other = faces.face_of(vertices, *corners[f]), faces.face_of(vertices, *corners[g])
-    common = faces.match(one, other)
-    return bool(
-        faces.cut_exactly(one, other, common) or faces.count_as_cut(one, other, common, area_scale)
+    one, other = (
+        face_of(vertices, *corners[f]),
+        face_of(vertices, *corners[g]),
     )
+    shared = shared_vertices(one, other)
+    return bool(intersect(one, other, shared) or meshlab_may_count(one, other, shared, area_scale))
 
 
 def box(points):

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from meshlab_willmore.guards import cuts
 from meshlab_willmore.guards.bvh import (
     LEAF_FACES,
     build_bvh,
@@ -15,6 +14,14 @@ from meshlab_willmore.guards.bvh import (
     refitted,
     skip_subtree,
     specialized,
+)
+from meshlab_willmore.guards.intersections import (
+    ANY_ROUND,
+    blocking_face,
+    box_of,
+    face_at,
+    intersects_another_flip,
+    would_intersect,
 )
 from meshlab_willmore.measure import self_intersections
 from meshlab_willmore.mesh.build import build, faces_of
@@ -88,9 +95,9 @@ def test_the_index_finds_what_all_pairs_tell(name):
             if not can_flip(mesh, h):
                 continue
             blocking = brute.blockers(mesh, h, bvh.area_scale)
-            found = int(cuts.blocker(mesh, bvh, h, cuts.EVER))
+            found = int(blocking_face(mesh, bvh, h, ANY_ROUND))
             assert (found in blocking) if blocking else (found == NONE)
-            assert bool(cuts.would_cut(mesh, bvh, h)) == bool(blocking)
+            assert bool(would_intersect(mesh, bvh, h)) == bool(blocking)
         np.testing.assert_array_equal(mesh.origin, before.origin)
 
 
@@ -174,7 +181,7 @@ def test_of_faces_that_changed_in_a_round_those_are_found_that_all_pairs_tell(na
         blocking = brute.blockers(mesh, h, bvh.area_scale)
         for since in (1, 2, 3):
             young = {f for f in blocking if bvh.changed[f] >= since and f != h // 3}
-            found = int(cuts.blocker(mesh, bvh, h, since))
+            found = int(blocking_face(mesh, bvh, h, since))
             assert (found in young) if young else (found == NONE)
 
 
@@ -204,7 +211,7 @@ def test_rivals_are_those_that_all_pairs_tell(name):
             for f in own
             for e in set(new.tolist()) - set(own)
         )
-        assert bool(cuts.has_rival(mesh, bvh, h, 7, to_flip)) == wanted
+        assert bool(intersects_another_flip(mesh, bvh, h, 7, to_flip)) == wanted
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 4, 5, 8, 9, 31, 64, 65, 1000])
@@ -241,11 +248,11 @@ def test_one_huge_face_costs_little():
     bvh = build_bvh(mesh)
     visited = []
     for f in range(0, len(faces) - 1, 100):
-        box = cuts.box_of(cuts.face_at(mesh, f))
-        node, leaves = next_leaf(bvh, 0, box, cuts.EVER), 0
+        box = box_of(face_at(mesh, f))
+        node, leaves = next_leaf(bvh, 0, box, ANY_ROUND), 0
         while node != NONE:
             leaves += 1
-            node = next_leaf(bvh, skip_subtree(node), box, cuts.EVER)
+            node = next_leaf(bvh, skip_subtree(node), box, ANY_ROUND)
         visited.append(leaves)
     assert min(visited) >= 1
     assert np.mean(visited) < 30
@@ -255,10 +262,10 @@ def test_a_walk_meets_every_leaf_once_in_order():
     mesh, _ = unit_mesh(*meshes.bumpy_sphere(200))
     bvh = build_bvh(mesh)
     everything = (-np.inf,) * 3 + (np.inf,) * 3
-    node, walked = next_leaf(bvh, 0, everything, cuts.EVER), []
+    node, walked = next_leaf(bvh, 0, everything, ANY_ROUND), []
     while node != NONE:
         walked.append(int(node))
-        node = next_leaf(bvh, skip_subtree(node), everything, cuts.EVER)
+        node = next_leaf(bvh, skip_subtree(node), everything, ANY_ROUND)
     leaves = (len(bvh.box) + 1) // 2
     assert walked == list(range(leaves - 1, 2 * leaves - 1))
 
@@ -269,16 +276,16 @@ def test_without_a_guard_nothing_is_refused():
     assert not any(len(array) for array in bvh[2:])
     for h in range(len(mesh.origin)):
         if can_flip(mesh, h):
-            assert not cuts.would_cut(mesh, bvh, h)
+            assert not would_intersect(mesh, bvh, h)
     refit(mesh, bvh, 0)
-    assert cuts.blocker(mesh, bvh, 0, cuts.EVER) == NONE
+    assert blocking_face(mesh, bvh, 0, ANY_ROUND) == NONE
     assert not build_bvh(build(np.empty((0, 3)), np.empty((0, 3), np.int32))).active
 
 
 @jit
 def _flipped(mesh, bvh, h):
     """What a search asks and does."""
-    refused = cuts.would_cut(mesh, bvh, h) or cuts.blocker(mesh, bvh, h, cuts.EVER) != NONE
+    refused = would_intersect(mesh, bvh, h) or blocking_face(mesh, bvh, h, ANY_ROUND) != NONE
     if not refused:
         flip(mesh, h)
         refit(mesh, bvh, h)

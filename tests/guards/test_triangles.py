@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
-from meshlab_willmore.guards import faces
+from meshlab_willmore.guards.intersections import face_of, intersect, shared_vertices
 from tests import solids
 
 PATTERNS = {
@@ -53,8 +53,8 @@ def both_ways(vertices, one, other):
     answers = set()
     for turned in (one, one[1:] + one[:1], one[::-1]):
         for first, second in ((turned, other), (other[2:] + other[:2], turned)):
-            p, q = faces.face_of(vertices, *first), faces.face_of(vertices, *second)
-            answers.add(bool(faces.cut_exactly(p, q, faces.match(p, q))))
+            p, q = face_of(vertices, *first), face_of(vertices, *second)
+            answers.add(bool(intersect(p, q, shared_vertices(p, q))))
     assert len(answers) == 1
     return answers.pop()
 
@@ -81,11 +81,11 @@ def test_all_ways_to_share_vertices_are_found():
     vertices = np.zeros((6, 3))
     for one in itertools.permutations(range(4), 3):
         for other in itertools.permutations(range(6), 3):
-            found = faces.match(faces.face_of(vertices, *one), faces.face_of(vertices, *other))
-            common = set(one) & set(other)
-            assert found.shared == len(common)
-            if len(common) == 1:
-                assert {one[found.corner]} == {other[found.other]} == common
-            if len(common) == 2:
-                assert {one[found.corner]} == set(one) - common
-                assert {other[found.other]} == set(other) - common
+            found = shared_vertices(face_of(vertices, *one), face_of(vertices, *other))
+            shared = set(one) & set(other)
+            assert found.number == len(shared)
+            if len(shared) == 1:
+                assert {one[found.corner]} == {other[found.other]} == shared
+            if len(shared) == 2:
+                assert {one[found.corner]} == set(one) - shared
+                assert {other[found.other]} == set(other) - shared

@@ -308,7 +308,7 @@ def test_with_the_guard_edges_that_would_cut_are_tried_again(energy):
     assert progress.flips > 0
     for h in edges_of(mesh):
         if rules.is_potential and rank_of(mesh, h, rules, energy) and makes_new_edge(mesh, h):
-            assert guards.cuts.would_cut(mesh, space, h)
+            assert guards.intersections.would_intersect(mesh, space, h)
 
 
 @pytest.mark.parametrize("gap", [1.0, 3.0])

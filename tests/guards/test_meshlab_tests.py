@@ -6,7 +6,15 @@ import numpy as np
 import pymeshlab
 import pytest
 
-from meshlab_willmore.guards import faces, triangles
+from meshlab_willmore.guards import triangles
+from meshlab_willmore.guards.intersections import (
+    Face,
+    are_clearly_apart,
+    face_of,
+    intersect,
+    meshlab_may_count,
+    shared_vertices,
+)
 from meshlab_willmore.mesh.points import Point
 from meshlab_willmore.mesh.validate import to_unit_scale
 from tests import meshes
@@ -35,11 +43,11 @@ def test_what_meshlab_counts_is_counted(family, sharing):
         vertices = np.asarray(FAMILIES[family](rng), float)
         vertices = vertices * rng.choice(SCALES) + rng.choice(OFFSETS)
         scaled, exponent = to_unit_scale(vertices, corners)
-        one, other = (faces.face_of(scaled, *face) for face in corners)
-        said = faces.count_as_cut(one, other, faces.match(one, other), 4.0**exponent)
+        one, other = (face_of(scaled, *face) for face in corners)
+        said = meshlab_may_count(one, other, shared_vertices(one, other), 4.0**exponent)
         # MeshLab looks at a pair in the order of its faces, or in both.
         wanted = counted(vertices, corners) > 0 or counted(vertices, corners[::-1]) > 0
-        assert said == faces.count_as_cut(other, one, faces.match(other, one), 4.0**exponent)
+        assert said == meshlab_may_count(other, one, shared_vertices(other, one), 4.0**exponent)
         assert said or not wanted, vertices.tolist()
         agreed += said == wanted
     assert agreed >= 0.95 * PAIRS
@@ -64,14 +72,12 @@ def test_what_is_seen_apart_neither_cuts_nor_counts(bend, scale):
         for _ in range(40):
             vertices = scale * round_a_vertex(rng, gap, bend)
             scaled, exponent = to_unit_scale(vertices, corners)
-            one, other = (
-                faces.face_of(scaled, *np.roll(face, rng.integers(3))) for face in corners
-            )
-            common = faces.match(one, other)
-            if faces.are_seen_apart(one, other, common, 4.0**exponent):
-                assert faces.are_seen_apart(other, one, faces.match(other, one), 4.0**exponent)
-                assert not faces.cut_exactly(one, other, common)
-                assert not faces.count_as_cut(one, other, common, 4.0**exponent)
+            one, other = (face_of(scaled, *np.roll(face, rng.integers(3))) for face in corners)
+            shared = shared_vertices(one, other)
+            if are_clearly_apart(one, other, shared, 4.0**exponent):
+                assert are_clearly_apart(other, one, shared_vertices(other, one), 4.0**exponent)
+                assert not intersect(one, other, shared)
+                assert not meshlab_may_count(one, other, shared, 4.0**exponent)
 
 
 @pytest.mark.parametrize("sharing", PATTERNS)
@@ -82,11 +88,11 @@ def test_in_no_family_is_a_cut_seen_apart(family, sharing):
     for _ in range(300):
         vertices = np.asarray(FAMILIES[family](rng), float)
         scaled, exponent = to_unit_scale(vertices, corners)
-        one, other = (faces.face_of(scaled, *face) for face in corners)
-        common = faces.match(one, other)
-        if faces.are_seen_apart(one, other, common, 4.0**exponent):
-            assert not faces.cut_exactly(one, other, common)
-            assert not faces.count_as_cut(one, other, common, 4.0**exponent)
+        one, other = (face_of(scaled, *face) for face in corners)
+        shared = shared_vertices(one, other)
+        if are_clearly_apart(one, other, shared, 4.0**exponent):
+            assert not intersect(one, other, shared)
+            assert not meshlab_may_count(one, other, shared, 4.0**exponent)
 
 
 def mirrored(rng):
@@ -106,10 +112,10 @@ def test_what_only_rounding_brings_together_is_not_seen_apart():
     area_scale, by_rounding = 4.0**25, 0
     for _ in range(4000):
         s, a, b, c, d = (Point(*row) for row in mirrored(rng).tolist())
-        one, other = faces.Face(0, 1, 2, s, a, b), faces.Face(0, 3, 4, s, c, d)
-        common = faces.match(one, other)
-        if faces.count_as_cut(one, other, common, area_scale):
-            assert not faces.are_seen_apart(one, other, common, area_scale)
+        one, other = Face(0, 1, 2, s, a, b), Face(0, 3, 4, s, c, d)
+        shared = shared_vertices(one, other)
+        if meshlab_may_count(one, other, shared, area_scale):
+            assert not are_clearly_apart(one, other, shared, area_scale)
             by_rounding += triangles.are_apart(s, a, b, c, d, 0.0, 0.0)
     assert by_rounding > 0
 
@@ -121,7 +127,10 @@ def test_nearly_all_neighbours_round_a_vertex_are_seen_apart():
     seen = []
     for f, g in itertools.combinations(range(len(corners)), 2):
         if len(set(corners[f]) & set(corners[g])) == 1:
-            one, other = faces.face_of(scaled, *corners[f]), faces.face_of(scaled, *corners[g])
-            common = faces.match(one, other)
-            seen.append(faces.are_seen_apart(one, other, common, 4.0**exponent))
+            one, other = (
+                face_of(scaled, *corners[f]),
+                face_of(scaled, *corners[g]),
+            )
+            shared = shared_vertices(one, other)
+            seen.append(are_clearly_apart(one, other, shared, 4.0**exponent))
     assert np.mean(seen) > 0.9

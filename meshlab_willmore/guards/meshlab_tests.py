@@ -1,17 +1,21 @@
-"""What MeshLab would say about two faces: its tests for self-intersections, rounding included.
+"""MeshLab's own float predicates, so that the number of faces that *it* counts never grows.
 
-Faces in nearly the same plane confuse these tests: about one in thirty of a tilted flat mesh is
-counted as cut, although none is. So that no flip ever raises the number that MeshLab counts, the
-guard refuses what either the exact tests or these say. They follow what MeshLab does step by step:
-no common vertex: T. Möller, "A fast triangle-triangle intersection test", 1997, DOI
-10.1080/10867651.1997.10487472, without its tolerance; one: the side opposite to it, moved halfway
-towards it, by T. Möller and B. Trumbore, "Fast, minimum storage ray/triangle intersection", 1997,
-DOI 10.1080/10867651.1997.10487468; two: never. Where MeshLab looks at more conditions than these,
-they are left out, so that the answer is yes at least as often as there.
+MeshLab finds self-intersections with rounded arithmetic. Faces in nearly the same plane confuse its
+tests: about one in thirty of a tilted flat mesh is counted, although none intersects another. So
+the guard refuses a flip if either the exact tests or these say that faces intersect. They follow
+MeshLab step by step:
 
-MeshLab looks at a pair of faces once, the lower number first, but in a process that has run many
-filters in both orders: a run marks faces by one of 32 bits, some filters never give theirs back,
-and without a bit it does not know which pairs it has seen. So the guard asks in both orders too.
+- no common vertex: T. Möller, "A fast triangle-triangle intersection test", 1997, DOI
+  10.1080/10867651.1997.10487472, without its tolerance;
+- one: the side opposite to it, moved halfway towards it, by T. Möller and B. Trumbore, "Fast,
+  minimum storage ray/triangle intersection", 1997, DOI 10.1080/10867651.1997.10487468;
+- two: never.
+
+MeshLab's further conditions are left out, so that the answer is yes at least as often as there.
+
+MeshLab tests a pair of faces once, the lower number first, but in a process that has run many
+filters in both orders: a run marks faces by one of 32 bits, some filters never release theirs, and
+without a bit it does not know which pairs it has tested. So the guard tests both orders too.
 
 Coordinates scaled by a power of two give the same answers, but for one absolute limit.
 """
@@ -91,7 +95,7 @@ def _interval(a, b, c, heights):
 
 @inner
 def triangles_meet(a, b, c, p, q, r):
-    """Tell whether MeshLab says that two triangles without a common vertex meet.
+    """Whether MeshLab says that two triangles without a common vertex meet.
 
     The answer depends, by rounding, on which comes first and on the order of the corners.
     """
@@ -139,7 +143,7 @@ def _dropped_axis(n):
 
 @inner
 def _sides_meet(a, b, p, q):
-    """Tell whether two segments of the plane meet (F. Antonio, Graphics Gems III, 1992)."""
+    """Whether two segments of the plane meet (F. Antonio, Graphics Gems III, 1992)."""
     ax, ay = b[0] - a[0], b[1] - a[1]
     bx, by = p[0] - q[0], p[1] - q[1]
     cx, cy = a[0] - p[0], a[1] - p[1]
@@ -165,7 +169,7 @@ def _is_inside(p, a, b, c):
 
 @inner
 def _shadows_meet(n, one, other):
-    """Tell whether two triangles in the plane with the normal `n` meet."""
+    """Whether two triangles in the plane with the normal `n` meet."""
     axis = _dropped_axis(n)
     a, b, c = _shadow(one[0], axis), _shadow(one[1], axis), _shadow(one[2], axis)
     p, q, r = _shadow(other[0], axis), _shadow(other[1], axis), _shadow(other[2], axis)
@@ -182,7 +186,7 @@ def _halfway(s, a):
 
 @inner
 def side_meets(s, p, q, a, b, c, area_scale):
-    """Tell whether MeshLab says that the side p-q opposite to `s` meets a triangle that has `s`.
+    """Whether MeshLab says that the side p-q opposite to `s` meets a triangle that has `s`.
 
     Parameters
     ----------

@@ -353,6 +353,6 @@ def _locked(mesh, locks, order):
         guards.lock_edges(mesh, locks.locked_edges)
     if locks.wedge_uv is None:
         return mesh
-    uv = guards.mapping_of(locks.wedge_uv, order)
+    uv = guards.texture_coordinates(locks.wedge_uv, order)
     guards.lock_seams(mesh, uv)
     return mesh._replace(uv=uv)

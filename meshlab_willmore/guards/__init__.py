@@ -1,6 +1,6 @@
 """Which flips are allowed beyond what the connectivity says.
 
-`locks` are set once for the input. `fold` keeps the surface from folding, and `mapping` textures.
+`locks` are set once for the input. `fold` keeps the surface from folding, and `texture` textures.
 `intersections` keeps faces from intersecting others: `bvh` finds those nearby, `triangles` tests
 them exactly, with the signs of `predicates`, and `meshlab_tests` as MeshLab would.
 """
@@ -14,7 +14,7 @@ from .fold import (
     triangle_shape,
 )
 from .locks import lock_creases, lock_edges, lock_seams, lock_unselected
-from .mapping import mapping_of
+from .texture import texture_coordinates
 
 __all__ = [
     "FLAT_ANGLE",
@@ -26,6 +26,6 @@ __all__ = [
     "lock_edges",
     "lock_seams",
     "lock_unselected",
-    "mapping_of",
+    "texture_coordinates",
     "triangle_shape",
 ]

@@ -1,6 +1,6 @@
 """The fold guard, which looks at each flip by itself, and the angles and shapes that it goes by.
 
-It keeps the surface from folding, and texture mappings too (see `mapping`).
+It keeps the surface from folding, and texture mappings too (see `texture`).
 """
 
 import math
@@ -9,7 +9,7 @@ from typing import NamedTuple
 from ..mesh.halfedge import diamond
 from ..mesh.jit import inlined, inner
 from ..mesh.points import angle_between, dot, norm, normal, subtract
-from .mapping import turns_over
+from .texture import inverts_texture
 
 FLAT_ANGLE = 180.0
 RIGHT_ANGLE = 0.5 * math.pi
@@ -64,11 +64,11 @@ def folds(mesh, h, limits):
     """Whether to flip `h` would fold the surface, make a sliver, or fold a texture mapping.
 
     True if the dihedral angle of the new edge exceeds both the old one and the limit, if the worse
-    shape of the two faces falls below both the old one and the limit, or if `turns_over` says so.
+    shape of the two faces falls below both the old one and the limit, or by `inverts_texture`.
     """
     if limits.active and _folds_surface(mesh, h, limits):
         return True
-    return len(mesh.uv) > 0 and turns_over(mesh, h)
+    return len(mesh.uv) > 0 and inverts_texture(mesh, h)
 
 
 @inner

@@ -61,7 +61,7 @@ def lock_seams(mesh, uv):
     mesh : Mesh
         Before any flip.
     uv : (3 m, 2 c) float64
-        From `meshlab_willmore.guards.mapping.mapping_of`.
+        From `meshlab_willmore.guards.texture.texture_coordinates`.
     """
     for h in range(len(uv)):
         t = mesh.twin[h]

@@ -37,7 +37,7 @@ class TexturePoint(NamedTuple):
     v: float
 
 
-def mapping_of(wedge_uv, order):
+def texture_coordinates(wedge_uv, order):
     """Return texture coordinates by half-edge, each mapping at unit scale.
 
     Parameters
@@ -101,8 +101,8 @@ def _sign(a, b, c):
 
 
 @inner
-def _turns_over_in(mesh, h, uv, first):
-    """Do what `turns_over` does, for the mapping that starts at the column `first`."""
+def _inverts_mapping(mesh, h, uv, first):
+    """Do what `inverts_texture` does, for the mapping that starts at the column `first`."""
     t = mesh.twin[at(h)]
     i = _texture_point(mesh, uv, h, first)
     j = _texture_point(mesh, uv, t, first)
@@ -121,17 +121,17 @@ def _turns_over_in(mesh, h, uv, first):
 
 
 @inner
-def turns_over(mesh, h):
+def inverts_texture(mesh, h):
     """Whether the flip of `h` would turn a texture triangle over or make it flat.
 
     Parameters
     ----------
     mesh : Mesh
-        Its `uv` is from `mapping_of`; without any, nothing is refused.
+        Its `uv` is from `texture_coordinates`; without any, nothing is refused.
     h : int
         Half-edge that is free; its edge is no seam, see `meshlab_willmore.guards.locks.lock_seams`.
     """
     refused = False
     for first in range(0, mesh.uv.shape[1], 2):
-        refused = refused or _turns_over_in(mesh, h, mesh.uv, first)
+        refused = refused or _inverts_mapping(mesh, h, mesh.uv, first)
     return refused

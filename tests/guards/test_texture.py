@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from meshlab_willmore import guards
-from meshlab_willmore.guards.mapping import mapping_of
+from meshlab_willmore.guards.texture import texture_coordinates
 from meshlab_willmore.mesh.build import build
 from meshlab_willmore.mesh.halfedge import apex, can_flip, flip
 from tests import meshes
@@ -23,7 +23,7 @@ def mapped(*mappings):
     mesh = build(*meshes.two_triangles())
     wedges = np.concatenate([np.array(uv, float)[mesh.origin] for uv in mappings], axis=1)
     order = np.arange(2, dtype=np.int32)
-    return mesh._replace(uv=mapping_of(wedges.reshape(2, 3, -1), order))
+    return mesh._replace(uv=texture_coordinates(wedges.reshape(2, 3, -1), order))
 
 
 def is_refused(*mappings):
@@ -143,7 +143,7 @@ def test_coordinates_go_along_with_flips():
     mesh = build(*meshes.bumpy_sphere(40, bump=0.6))
     uv = np.random.default_rng(0).integers(-3, 4, (40, 2)).astype(float)
     order = np.arange(len(mesh.origin) // 3, dtype=np.int32)
-    mesh = mesh._replace(uv=mapping_of(uv[mesh.origin].reshape(-1, 3, 2), order))
+    mesh = mesh._replace(uv=texture_coordinates(uv[mesh.origin].reshape(-1, 3, 2), order))
     verdicts = []
     for h in np.random.default_rng(1).integers(0, len(mesh.origin), 400):
         if can_flip(mesh, h):
@@ -161,19 +161,19 @@ def test_seams_and_faces_that_map_nowhere_are_locked():
     uv = vertices[faces, :2]
     mesh = build(vertices, faces)
     order = np.arange(len(faces), dtype=np.int32)
-    guards.lock_seams(mesh, mapping_of(uv, order))
+    guards.lock_seams(mesh, texture_coordinates(uv, order))
     assert not mesh.locked.any()
     guards.lock_seams(mesh, mesh.uv)
     assert not mesh.locked.any()
     # The first square is a chart of its own: only one end of one of its edges stays where it was.
     moved = uv.copy()
     moved[:2][faces[:2] != 1] += 10.0
-    guards.lock_seams(mesh, mapping_of(moved, order))
+    guards.lock_seams(mesh, texture_coordinates(moved, order))
     assert locked_edges(mesh) == {frozenset((1, 5)), frozenset((4, 5))}
     for value in (np.nan, np.inf, -np.inf):
         mesh = build(vertices, faces)
         lost = uv.copy()
         lost[7, 1, 0] = value
-        guards.lock_seams(mesh, mapping_of(lost, order))
+        guards.lock_seams(mesh, texture_coordinates(lost, order))
         a, b, c = faces[7].tolist()
         assert locked_edges(mesh) == {frozenset((a, b)), frozenset((b, c)), frozenset((c, a))}

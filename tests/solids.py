@@ -28,7 +28,7 @@ def volume(a, b, c, d):
     return dot(minus(a, d), cross(minus(b, d), minus(c, d)))
 
 
-def shadow_area(a, b, c, axis):
+def projected_area(a, b, c, axis):
     return cross(minus(b, a), minus(c, a))[axis]
 
 

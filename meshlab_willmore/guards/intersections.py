@@ -99,8 +99,8 @@ def intersect(one, other, shared):
         return True
     p, q = _rotated(one, shared.corner), _rotated(other, shared.other)
     if shared.number == 1:
-        return triangles.meet_besides(p.a, p.b, p.c, q.b, q.c)
-    return triangles.meet_beyond(p.b, p.c, p.a, q.a)
+        return triangles.meet_off_vertex(p.a, p.b, p.c, q.b, q.c)
+    return triangles.meet_off_edge(p.b, p.c, p.a, q.a)
 
 
 @inner
@@ -151,7 +151,7 @@ def are_clearly_apart(one, other, shared, area_scale):
     # The points halfway are half as far from a plane.
     limit = 2.0 * meshlab_tests.ROUNDING_OF_POINTS
     share = 2.0 * meshlab_tests.ROUNDING_OF_AREAS * area_scale
-    return triangles.are_apart(p.a, p.b, p.c, q.b, q.c, limit, share)
+    return triangles.are_separated(p.a, p.b, p.c, q.b, q.c, limit, share)
 
 
 @inner

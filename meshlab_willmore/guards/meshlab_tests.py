@@ -21,7 +21,7 @@ Coordinates scaled by a power of two give the same answers, but for one absolute
 """
 
 from ..mesh.jit import inner
-from ..mesh.points import Point, cross, dot, norm, subtract
+from ..mesh.points import Point, coordinate, cross, dot, norm, subtract
 
 # MeshLab's limit for determinants, in squared units of the coordinates, and for weights.
 LIMIT = 1e-6
@@ -44,25 +44,18 @@ def _unit(a):
 
 
 @inner
-def _heights(n, offset, a, b, c):
+def _distances(n, offset, a, b, c):
     return Point(dot(n, a) + offset, dot(n, b) + offset, dot(n, c) + offset)
 
 
 @inner
-def _is_beside(heights):
-    return heights.x * heights.y > 0.0 and heights.x * heights.z > 0.0
+def _is_on_one_side(distances):
+    return distances.x * distances.y > 0.0 and distances.x * distances.z > 0.0
 
 
 @inner
-def _is_level(heights):
-    return heights.x == 0.0 and heights.y == 0.0 and heights.z == 0.0
-
-
-@inner
-def _along(a, axis):
-    if axis == 0:
-        return a.x
-    return a.y if axis == 1 else a.z
+def _is_coplanar(distances):
+    return distances.x == 0.0 and distances.y == 0.0 and distances.z == 0.0
 
 
 @inner
@@ -75,13 +68,13 @@ def _longest_axis(d):
 
 
 @inner
-def _interval(a, b, c, heights):
+def _interval(a, b, c, distances):
     """Return the two ends of a triangle on the line of both planes, as start, rises and drops.
 
     `a`, `b`, `c` are its corners along the line. It is left from the corner that is alone on its
     side of the plane, and each end is start + rise / drop.
     """
-    x, y, z = heights.x, heights.y, heights.z
+    x, y, z = distances.x, distances.y, distances.z
     if x * y > 0.0:
         return c, (a - c) * z, (b - c) * z, z - x, z - y
     if x * z > 0.0:
@@ -100,21 +93,21 @@ def triangles_meet(a, b, c, p, q, r):
     The answer depends, by rounding, on which comes first and on the order of the corners.
     """
     n = _unit(cross(subtract(b, a), subtract(c, a)))
-    from_first = _heights(n, -dot(n, a), p, q, r)
-    if _is_beside(from_first):
+    from_first = _distances(n, -dot(n, a), p, q, r)
+    if _is_on_one_side(from_first):
         return False
     m = cross(subtract(q, p), subtract(r, p))
-    from_second = _heights(m, -dot(m, p), a, b, c)
-    if _is_beside(from_second):
+    from_second = _distances(m, -dot(m, p), a, b, c)
+    if _is_on_one_side(from_second):
         return False
-    if _is_level(from_second) or _is_level(from_first):
-        return _shadows_meet(n, (a, b, c), (p, q, r))
+    if _is_coplanar(from_second) or _is_coplanar(from_first):
+        return _coplanar_meet(n, (a, b, c), (p, q, r))
     axis = _longest_axis(cross(n, m))
     start, rise, other_rise, drop, other_drop = _interval(
-        _along(a, axis), _along(b, axis), _along(c, axis), from_second
+        coordinate(a, axis), coordinate(b, axis), coordinate(c, axis), from_second
     )
     begin, climb, other_climb, fall, other_fall = _interval(
-        _along(p, axis), _along(q, axis), _along(r, axis), from_first
+        coordinate(p, axis), coordinate(q, axis), coordinate(r, axis), from_first
     )
     # All four ends times all four drops, instead of divisions.
     drops, falls = drop * other_drop, fall * other_fall
@@ -126,8 +119,8 @@ def triangles_meet(a, b, c, p, q, r):
 
 
 @inner
-def _shadow(a, axis):
-    """Return what is left of a point once one coordinate is dropped."""
+def _projected(a, axis):
+    """Return the other two coordinates of a point."""
     if axis == 0:
         return a.y, a.z
     return (a.x, a.z) if axis == 1 else (a.x, a.y)
@@ -156,23 +149,23 @@ def _sides_meet(a, b, p, q):
 
 
 @inner
-def _height_over(p, a, b):
+def _side_of_line(p, a, b):
     x, y = b[1] - a[1], -(b[0] - a[0])
     return x * p[0] + y * p[1] + (-x * a[0] - y * a[1])
 
 
 @inner
 def _is_inside(p, a, b, c):
-    first = _height_over(p, a, b)
-    return first * _height_over(p, b, c) > 0.0 and first * _height_over(p, c, a) > 0.0
+    first = _side_of_line(p, a, b)
+    return first * _side_of_line(p, b, c) > 0.0 and first * _side_of_line(p, c, a) > 0.0
 
 
 @inner
-def _shadows_meet(n, one, other):
+def _coplanar_meet(n, one, other):
     """Whether two triangles in the plane with the normal `n` meet."""
     axis = _dropped_axis(n)
-    a, b, c = _shadow(one[0], axis), _shadow(one[1], axis), _shadow(one[2], axis)
-    p, q, r = _shadow(other[0], axis), _shadow(other[1], axis), _shadow(other[2], axis)
+    a, b, c = _projected(one[0], axis), _projected(one[1], axis), _projected(one[2], axis)
+    p, q, r = _projected(other[0], axis), _projected(other[1], axis), _projected(other[2], axis)
     for s, t in ((a, b), (b, c), (c, a)):
         if _sides_meet(s, t, p, q) or _sides_meet(s, t, q, r) or _sides_meet(s, t, r, p):
             return True

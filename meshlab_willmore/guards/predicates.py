@@ -165,8 +165,8 @@ def orient2d(ax, ay, bx, by, cx, cy):
 
 
 @inner
-def turn(a, b, c, axis):
-    """Return `orient2d` of the shadows of three points along the `axis` 0, 1 or 2."""
+def projected_orient2d(a, b, c, axis):
+    """Return `orient2d` of the projections of three points along the `axis` 0, 1 or 2."""
     if axis == 0:
         return orient2d(a.y, a.z, b.y, b.z, c.y, c.z)
     if axis == 1:

@@ -1,24 +1,24 @@
-"""Do two faces of a mesh cut each other? Exact, also for faces without area.
+"""Exact intersection tests of two triangles, also of triangles without area.
 
-Faces cut each other if they share a point that their common vertices do not account for:
+Faces of a mesh intersect if they share a point that their common vertices do not account for:
 
-    no common vertex    any point at all; to touch is to cut
+    no common vertex    any point at all; to touch is to intersect
     one                 any point besides that vertex
     two                 any point besides their edge: one is folded back onto the other
     three               always
 
-Vertices are common by number: coincident ones are two. What everything comes down to is whether a
-closed segment meets a closed triangle, either of which may have shrunk to less.
+Vertices are common by number: coincident ones are two. All cases are reduced to whether a closed
+segment meets a closed triangle, either of which may be degenerate.
 
-**Shadows.** Points of one plane are compared by their shadows along the three axes. Along at least
-one of them the shadow is faithful; along the others it can only make things meet that do not, and
-make turns vanish. So segments of one plane meet where all their shadows do, and a turn counts where
-any shadow shows it.
+Coplanar points are compared by their projections along the three axes. At least one of these
+projections is one-to-one; the others can only make things meet that do not, and make orientations
+vanish. So coplanar segments meet where all their projections do, and an orientation counts if any
+projection has it.
 """
 
 from ..mesh.jit import inlined, inner
-from ..mesh.points import Point, add, norm, subtract
-from .predicates import orient3d, turn
+from ..mesh.points import Point, add, coordinate, norm, subtract
+from .predicates import orient3d, projected_orient2d
 
 AXES = 3
 # A scalar product of rounded differences is off by less than this part of the sum of sizes, and a
@@ -27,61 +27,49 @@ BOUND_PRODUCT, LEAST = 1e-15, 1e-290
 
 
 @inner
-def _coordinate(a, axis):
-    if axis == 0:
-        return a.x
-    return a.y if axis == 1 else a.z
-
-
-@inner
-def _is_same(a, b):
+def _coincide(a, b):
     return a.x == b.x and a.y == b.y and a.z == b.z
 
 
 @inner
-def _is_in_line(a, b, c):
-    return turn(a, b, c, 0) == 0 and turn(a, b, c, 1) == 0 and turn(a, b, c, 2) == 0
-
-
-@inner
-def _is_in_box(p, a, b):
-    """Whether `p` is in the box around `a` and `b`."""
+def _are_collinear(a, b, c):
     return (
-        min(a.x, b.x) <= p.x <= max(a.x, b.x)
-        and min(a.y, b.y) <= p.y <= max(a.y, b.y)
-        and min(a.z, b.z) <= p.z <= max(a.z, b.z)
+        projected_orient2d(a, b, c, 0) == 0
+        and projected_orient2d(a, b, c, 1) == 0
+        and projected_orient2d(a, b, c, 2) == 0
     )
 
 
 @inner
 def _is_between(p, a, b):
     """Whether `p` is on the closed segment from `a` to `b`."""
-    return _is_in_box(p, a, b) and _is_in_line(p, a, b)
+    return (
+        min(a.x, b.x) <= p.x <= max(a.x, b.x)
+        and min(a.y, b.y) <= p.y <= max(a.y, b.y)
+        and min(a.z, b.z) <= p.z <= max(a.z, b.z)
+        and _are_collinear(p, a, b)
+    )
 
 
 @inner
 def _spans_overlap(p, q, a, b, axis):
-    p, q, a, b = (
-        _coordinate(p, axis),
-        _coordinate(q, axis),
-        _coordinate(a, axis),
-        _coordinate(b, axis),
-    )
+    p, q = coordinate(p, axis), coordinate(q, axis)
+    a, b = coordinate(a, axis), coordinate(b, axis)
     return max(p, q) >= min(a, b) and max(a, b) >= min(p, q)
 
 
 @inner
-def _shadows_meet(p, q, a, b, axis):
-    """Whether the shadows of two segments along `axis` share a point."""
+def _projections_meet(p, q, a, b, axis):
+    """Whether the projections of two segments along `axis` share a point."""
     if not (
         _spans_overlap(p, q, a, b, (axis + 1) % AXES)
         and _spans_overlap(p, q, a, b, (axis + 2) % AXES)
     ):
         return False
-    # With overlapping boxes also right where all four turns are 0.
+    # With overlapping boxes also right where all four orientations are 0.
     return (
-        turn(p, q, a, axis) * turn(p, q, b, axis) <= 0
-        and turn(a, b, p, axis) * turn(a, b, q, axis) <= 0
+        projected_orient2d(p, q, a, axis) * projected_orient2d(p, q, b, axis) <= 0
+        and projected_orient2d(a, b, p, axis) * projected_orient2d(a, b, q, axis) <= 0
     )
 
 
@@ -89,7 +77,7 @@ def _shadows_meet(p, q, a, b, axis):
 def segments_meet(p, q, a, b):
     """Whether the closed segments p-q and a-b share a point."""
     for axis in range(AXES):
-        if not _shadows_meet(p, q, a, b, axis):
+        if not _projections_meet(p, q, a, b, axis):
             return False
     return orient3d(p, q, a, b) == 0
 
@@ -98,33 +86,36 @@ def segments_meet(p, q, a, b):
 def _is_inside(p, a, b, c):
     """Whether `p`, in a plane with the triangle, is in its interior."""
     for axis in range(AXES):
-        first = turn(a, b, p, axis)
-        if first != 0 and turn(b, c, p, axis) == first and turn(c, a, p, axis) == first:
+        first = projected_orient2d(a, b, p, axis)
+        if (
+            first != 0
+            and projected_orient2d(b, c, p, axis) == first
+            and projected_orient2d(c, a, p, axis) == first
+        ):
             return True
     return False
 
 
 @inner
-def segment_meets(p, q, a, b, c):
+def segment_meets_triangle(p, q, a, b, c):
     """Whether the closed segment p-q and the closed triangle (a, b, c) share a point."""
     at_p, at_q = orient3d(a, b, c, p), orient3d(a, b, c, q)
     if at_p * at_q > 0:
         return False
     if at_p == 0 and at_q == 0:
-        flat = _is_inside(p, a, b, c)
-        return flat or segments_meet(p, q, a, b) or _meets_two(p, q, b, c, a)
-    # The line goes through the plane at one point: does it see the triangle turn one way?
+        return (
+            _is_inside(p, a, b, c)
+            or segments_meet(p, q, a, b)
+            or segments_meet(p, q, b, c)
+            or segments_meet(p, q, c, a)
+        )
+    # The line crosses the plane at one point, inside if it passes all sides on the same side.
     first, second, third = orient3d(p, q, a, b), orient3d(p, q, b, c), orient3d(p, q, c, a)
     return min(first, second, third) >= 0 or max(first, second, third) <= 0
 
 
 @inner
-def _meets_two(p, q, b, c, a):
-    return segments_meet(p, q, b, c) or segments_meet(p, q, c, a)
-
-
-@inner
-def _is_beside(a, b, c, p, q, r):
+def _are_on_one_side(a, b, c, p, q, r):
     """Whether p, q, r are strictly on one side of the plane of (a, b, c)."""
     first = orient3d(a, b, c, p)
     return first != 0 and orient3d(a, b, c, q) == first and orient3d(a, b, c, r) == first
@@ -136,23 +127,23 @@ def triangles_meet(a, b, c, p, q, r):
 
     If they do, a side of one of them meets the other.
     """
-    if _is_beside(a, b, c, p, q, r) or _is_beside(p, q, r, a, b, c):
+    if _are_on_one_side(a, b, c, p, q, r) or _are_on_one_side(p, q, r, a, b, c):
         return False
     return (
-        segment_meets(p, q, a, b, c)
-        or segment_meets(q, r, a, b, c)
-        or segment_meets(r, p, a, b, c)
-        or segment_meets(a, b, p, q, r)
-        or segment_meets(b, c, p, q, r)
-        or segment_meets(c, a, p, q, r)
+        segment_meets_triangle(p, q, a, b, c)
+        or segment_meets_triangle(q, r, a, b, c)
+        or segment_meets_triangle(r, p, a, b, c)
+        or segment_meets_triangle(a, b, p, q, r)
+        or segment_meets_triangle(b, c, p, q, r)
+        or segment_meets_triangle(c, a, p, q, r)
     )
 
 
 @inner
-def _meet_besides(s, a, b, c, d):
-    """Do what `meet_besides` does for sides a-b and c-d that `s` is not on.
+def _meet_off_vertex(s, a, b, c, d):
+    """Do what `meet_off_vertex` does for sides a-b and c-d that `s` is not on.
 
-    Follow a common segment from s until it leaves one of the two: there, a side meets the other.
+    A common segment from s ends where it leaves one of the two: there, a side meets the other.
     """
     # With both ends strictly on one side of the other's plane, s is all that there is.
     at_a, at_b = orient3d(s, c, d, a), orient3d(s, c, d, b)
@@ -161,11 +152,11 @@ def _meet_besides(s, a, b, c, d):
     at_c, at_d = orient3d(s, a, b, c), orient3d(s, a, b, d)
     if at_c * at_d > 0:
         return False
-    return segment_meets(a, b, s, c, d) or segment_meets(c, d, s, a, b)
+    return segment_meets_triangle(a, b, s, c, d) or segment_meets_triangle(c, d, s, a, b)
 
 
 @inlined
-def _is_ahead(w, a, least):
+def _is_surely_ahead(w, a, least):
     """Whether the product of `w` and `a`, a rounded difference, is more than `least` >= 0.
 
     True only where no rounding can be the cause.
@@ -180,11 +171,11 @@ def _extent(a):
 
 
 @inner
-def are_apart(s, a, b, c, d, limit, share):
-    """Whether a plane through `s` is seen to have a, b on one side and c, d on the other.
+def are_separated(s, a, b, c, d, limit, share):
+    """Whether a certain plane through `s` clearly has a, b on one side and c, d on the other.
 
-    It is the one that halves the angle between the middles of a-b and c-d; nearly all neighbours
-    round a vertex are told apart by it. The four points must be farther from it than `limit`, and
+    It bisects the angle between the middles of a-b and c-d, and separates nearly all neighbours
+    round a vertex. The four points must be farther from it than `limit`, and
     than `share` times the third power of what bounds the sides of the triangles (s, a, b) and
     (s, c, d).
     """
@@ -201,15 +192,15 @@ def are_apart(s, a, b, c, d, limit, share):
     least = (limit + share * extent * extent * extent) * 2.0 * size * other_size + LEAST
     back = Point(-w.x, -w.y, -w.z)
     return (
-        _is_ahead(w, a, least)
-        and _is_ahead(w, b, least)
-        and _is_ahead(back, c, least)
-        and _is_ahead(back, d, least)
+        _is_surely_ahead(w, a, least)
+        and _is_surely_ahead(w, b, least)
+        and _is_surely_ahead(back, c, least)
+        and _is_surely_ahead(back, d, least)
     )
 
 
 @inner
-def meet_besides(s, a, b, c, d):
+def meet_off_vertex(s, a, b, c, d):
     """Whether the triangles (s, a, b) and (s, c, d) share a point besides `s`."""
     # A triangle with s on its far side is two segments from s.
     one_is_flat, other_is_flat = _is_between(s, a, b), _is_between(s, c, d)
@@ -220,36 +211,36 @@ def meet_besides(s, a, b, c, d):
                 one = two = a if first == 0 else b
             if other_is_flat:
                 three = four = c if second == 0 else d
-            if _is_same(one, two) and _is_same(one, s):
+            if _coincide(one, two) and _coincide(one, s):
                 continue
-            if _is_same(three, four) and _is_same(three, s):
+            if _coincide(three, four) and _coincide(three, s):
                 continue
-            if _meet_besides(s, one, two, three, four):
+            if _meet_off_vertex(s, one, two, three, four):
                 return True
     return False
 
 
 @inner
-def _are_ahead(s, t, a, b):
+def _are_beyond(s, t, a, b):
     """Whether `a` and `b`, on the line of `s` and `t`, are both beyond `t`."""
     for axis in range(AXES):
-        x, y = _coordinate(s, axis), _coordinate(t, axis)
-        one, other = _coordinate(a, axis), _coordinate(b, axis)
+        x, y = coordinate(s, axis), coordinate(t, axis)
+        one, other = coordinate(a, axis), coordinate(b, axis)
         if (x < y and one > y and other > y) or (x > y and one < y and other < y):
             return True
     return False
 
 
 @inner
-def meet_beyond(s, t, a, b):
+def meet_off_edge(s, t, a, b):
     """Whether the triangles (s, t, a) and (s, t, b) share a point off the segment s-t."""
     if orient3d(s, t, a, b) != 0:
         return False
     for axis in range(AXES):
-        if turn(s, t, a, axis) * turn(s, t, b, axis) > 0:
+        if projected_orient2d(s, t, a, axis) * projected_orient2d(s, t, b, axis) > 0:
             return True
-    if _is_same(s, t):
-        return meet_besides(s, a, a, b, b)
-    if _is_in_line(s, t, a) and _is_in_line(s, t, b):
-        return _are_ahead(s, t, a, b) or _are_ahead(t, s, a, b)
+    if _coincide(s, t):
+        return meet_off_vertex(s, a, a, b, b)
+    if _are_collinear(s, t, a) and _are_collinear(s, t, b):
+        return _are_beyond(s, t, a, b) or _are_beyond(t, s, a, b)
     return False

@@ -22,6 +22,14 @@ def point(vertices, v):
 
 
 @inlined
+def coordinate(a, axis):
+    """Return x, y or z of a point for the axis 0, 1 or 2."""
+    if axis == 0:
+        return a.x
+    return a.y if axis == 1 else a.z
+
+
+@inlined
 def subtract(a, b):
     """Return the vector from `b` to `a`."""
     return Point(a.x - b.x, a.y - b.y, a.z - b.z)

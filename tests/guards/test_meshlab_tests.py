@@ -116,7 +116,7 @@ def test_what_only_rounding_brings_together_is_not_seen_apart():
         shared = shared_vertices(one, other)
         if meshlab_may_count(one, other, shared, area_scale):
             assert not are_clearly_apart(one, other, shared, area_scale)
-            by_rounding += triangles.are_apart(s, a, b, c, d, 0.0, 0.0)
+            by_rounding += triangles.are_separated(s, a, b, c, d, 0.0, 0.0)
     assert by_rounding > 0
 
 

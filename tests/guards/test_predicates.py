@@ -56,8 +56,8 @@ def test_signs_are_those_of_fractions(name):
         assert predicates.orient3d(a, b, c, d) == wanted
         seen.add(wanted)
         for axis in range(3):
-            wanted = sign(solids.shadow_area(*exact[:3], axis))
-            assert predicates.turn(a, b, c, axis) == wanted
+            wanted = sign(solids.projected_area(*exact[:3], axis))
+            assert predicates.projected_orient2d(a, b, c, axis) == wanted
     assert len(seen) > 1 or name == "coincident"
 
 

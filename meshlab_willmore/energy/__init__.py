@@ -2,5 +2,5 @@
 
 An energy is a module with two jitted functions of the same signature for all:
 ``cost_reduction(mesh, h) -> float`` (positive: the flip of `h` helps) and ``total(mesh) -> float``.
-What a search has to know beside them stands in `meshlab_willmore.energy.kinds`.
+`meshlab_willmore.energy.table` has a row for each.
 """

@@ -34,7 +34,7 @@ class Rules(NamedTuple):
         Cost reductions are ranked in steps of this size (in units of the energy). Edges that are
         equal by symmetry then go by number, and not by rounding, which a rotation would change.
     is_potential, is_wide : bool
-        As in `meshlab_willmore.energy.kinds.Kind`.
+        As in `meshlab_willmore.energy.table.Energy`.
     virtualpoint : float
         Place of the virtual points in (0, 1), for the energies that ask for it.
     """

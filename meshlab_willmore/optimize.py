@@ -5,23 +5,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import guards
+from . import guards, options
 from .energy.kinds import KINDS
 from .guards.bvh import build_bvh, inactive_bvh
 from .measure import willmore_energy_of
 from .mesh.build import build, changed_edges, in_old_slots, local_order
 from .mesh.halfedge import lengths_of_sides
 from .mesh.validate import (
-    check_choice,
-    check_count,
-    check_degrees,
     check_edges,
-    check_flag,
-    check_limit,
     check_mask,
     check_mesh,
-    check_place,
-    check_seed,
     check_wedge_uv,
     in_input_units,
     to_unit_scale,
@@ -30,8 +23,6 @@ from .search import annealing, chains, greedy, parallel_greedy, thorough, variab
 from .search.kernels import AT, KERNELS, PLACED_KERNELS
 from .search.rules import CONVERGED, NO_LIMIT, Rules
 
-SEARCHES = ("parallel greedy", "greedy", "variable depth", "annealing", "thorough")
-PLACES = ("midpoint", "closest")
 # Where else the thorough search begins: after descents along these energies.
 PRELUDES = ("delaunay", "mean curvature")
 NO_FLIP = "no allowed flip lowers the energy any more"
@@ -44,8 +35,6 @@ CONVERGED_REASONS = {
     "thorough": NO_CHAIN,
 }
 STOPPED_REASON = "maxflips reached"
-MOST_DEPTH = 100
-MOST_SWEEPS = 10**9
 # Cost reductions are ranked in steps of this part of the median edge, to the energy's power.
 RANK_STEP = 1e-9
 # Steps of the unit of length, and the least median edge that has one.
@@ -116,17 +105,17 @@ def optimize_flips(
     vertices,
     faces,
     *,
-    energy="virtual willmore",
-    search="parallel greedy",
-    depth=5,
-    breadth=3,
-    sweeps=200,
-    seed=0,
-    virtualpoint="midpoint",
-    monotone=True,
-    foldangle=90.0,
-    checkintersections=False,
-    featuredeg=180.0,
+    energy=options.ENERGY.default,
+    search=options.SEARCH.default,
+    depth=options.DEPTH.default,
+    breadth=options.BREADTH.default,
+    sweeps=options.SWEEPS.default,
+    seed=options.SEED.default,
+    virtualpoint=options.VIRTUALPOINT.default,
+    monotone=options.MONOTONE.default,
+    foldangle=options.FOLDANGLE.default,
+    checkintersections=options.CHECKINTERSECTIONS.default,
+    featuredeg=options.FEATUREDEG.default,
     selected_faces=None,
     locked_edges=None,
     wedge_uv=None,
@@ -252,27 +241,22 @@ def optimize_flips(
     >>> result = optimize_flips(vertices, faces, energy="willmore")  # doctest: +SKIP
     >>> result.willmore_before - result.willmore_after  # doctest: +SKIP
     """
-    check_choice("search", search, SEARCHES)
-    check_choice("energy", energy, KERNELS)
+    search = options.SEARCH.checked(search)
+    energy = options.ENERGY.checked(energy)
     vertices, faces = check_mesh(vertices, faces)
-    place = check_place("virtualpoint", virtualpoint, PLACES)
+    place = options.VIRTUALPOINT.checked(virtualpoint)
     rules = _rules(monotone, foldangle, maxflips)
     if not isinstance(place, str):
         rules, place = rules._replace(virtualpoint=place), AT
-    reach = chains.Reach(
-        check_count("depth", depth, MOST_DEPTH),
-        check_count("breadth", breadth, chains.RING),
-    )
-    schedule = annealing.Schedule(
-        check_count("sweeps", sweeps, MOST_SWEEPS), check_seed("seed", seed)
-    )
+    reach = chains.Reach(options.DEPTH.checked(depth), options.BREADTH.checked(breadth))
+    schedule = annealing.Schedule(options.SWEEPS.checked(sweeps), options.SEED.checked(seed))
     locks = _Locks(
-        check_degrees("featuredeg", featuredeg),
+        options.FEATUREDEG.checked(featuredeg),
         None if selected_faces is None else check_mask(selected_faces, len(faces)),
         None if locked_edges is None else check_edges(locked_edges),
         None if wedge_uv is None else check_wedge_uv(wedge_uv, len(faces)),
     )
-    is_guarded = check_flag("checkintersections", checkintersections)
+    is_guarded = options.CHECKINTERSECTIONS.checked(checkintersections)
     scaled, exponent = to_unit_scale(vertices, faces)
     order = local_order(faces, len(vertices))
     mesh = build(scaled, faces[order])
@@ -314,10 +298,10 @@ def optimize_flips(
 
 def _rules(monotone, foldangle, maxflips):
     """Check the options of the search and return them as its rules."""
-    limit = check_limit("maxflips", maxflips)
+    limit = options.MAXFLIPS.checked(maxflips)
     return Rules(
-        fold=guards.fold_limits(check_degrees("foldangle", foldangle)),
-        monotone=check_flag("monotone", monotone),
+        fold=guards.fold_limits(options.FOLDANGLE.checked(foldangle)),
+        monotone=options.MONOTONE.checked(monotone),
         maxflips=NO_LIMIT if limit is None else min(limit, NO_LIMIT),
     )
 

@@ -23,8 +23,8 @@ from .mesh import compiling
 from .mesh.jit import cache_folder
 from .mesh.kernel_cache import write_errors
 from .mesh.normals import vertex_normals
-from .optimize import PLACES, SEARCHES, optimize_flips
-from .search.kernels import KERNELS
+from .optimize import optimize_flips
+from .options import ENERGY, SEARCH, VIRTUALPOINT
 
 VIRTUAL = "virtual willmore"
 _GUARDED = ", self-intersections"
@@ -81,12 +81,12 @@ def _flips() -> Iterator[tuple[str, dict[str, Any]]]:
     """Name and options of each kind of flips."""
     # One sweep compiles as much as many.
     few: dict[str, Any] = {"sweeps": 1}
-    places: list[str | float] = [*PLACES, _PLACE]
-    for search, energy in itertools.product(SEARCHES, KERNELS):
+    places: list[str | float] = [*VIRTUALPOINT.choices, _PLACE]
+    for search, energy in itertools.product(SEARCH.choices, ENERGY.choices):
         given = {**few, "search": search, "energy": energy}
         yield f"{search}, {energy}", given
         yield f"{search}, {energy}{_GUARDED}", {**given, "checkintersections": True}
-    for search, place in itertools.product(SEARCHES, places):
+    for search, place in itertools.product(SEARCH.choices, places):
         given = {**few, "search": search, "energy": VIRTUAL, "virtualpoint": place}
         yield f"{search}, virtual points {place}", given
         yield (

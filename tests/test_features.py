@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from meshlab_willmore.measure import measures
-from meshlab_willmore.optimize import KERNELS, SEARCHES, optimize_flips
+from meshlab_willmore.optimize import optimize_flips
+from meshlab_willmore.options import ENERGY, SEARCH
 from tests import reference
 
 LIMIT = 30.0
@@ -104,8 +105,8 @@ def _ends(faces):
 
 @pytest.mark.heavy
 @pytest.mark.parametrize("part", PARTS)
-@pytest.mark.parametrize("energy", KERNELS)
-@pytest.mark.parametrize("search", SEARCHES)
+@pytest.mark.parametrize("energy", ENERGY.choices)
+@pytest.mark.parametrize("search", SEARCH.choices)
 @pytest.mark.slow
 def test_feature_edges_stay_and_so_does_the_shape(search, energy, part):
     vertices, faces = PARTS[part]

@@ -8,7 +8,8 @@ import pymeshlab
 import pytest
 
 from meshlab_willmore.measure import self_intersections
-from meshlab_willmore.optimize import KERNELS, SEARCHES, optimize_flips
+from meshlab_willmore.optimize import optimize_flips
+from meshlab_willmore.options import ENERGY, SEARCH
 from tests import meshes
 from tests.guards.test_meshlab_tests import counted
 
@@ -50,9 +51,9 @@ def new_faces(before, after):
 def combinations():
     """All meshes, energies, searches and options: by day such that each two of them meet."""
     ways = [{}, {"foldangle": 180.0, "monotone": False}]
-    numbered = (enumerate(values) for values in (MESHES, KERNELS, SEARCHES, ways))
+    numbered = (enumerate(values) for values in (MESHES, ENERGY.choices, SEARCH.choices, ways))
     for (m, name), (e, energy), (s, search), (w, options) in itertools.product(*numbered):
-        is_daily = s == (m + e) % len(SEARCHES) and w == (m // 2 + e) % len(ways)
+        is_daily = s == (m + e) % len(SEARCH.choices) and w == (m // 2 + e) % len(ways)
         marks = () if is_daily else pytest.mark.nightly
         yield pytest.param(search, energy, options, name, marks=marks)
 
@@ -94,7 +95,7 @@ def test_without_the_guard_a_noisy_sphere_cuts_itself():
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize("search", SEARCHES)
+@pytest.mark.parametrize("search", SEARCH.choices)
 @pytest.mark.parametrize(
     "mesh", [meshes.torus(300, 0.3, 8), meshes.patch(200, height=0.02), meshes.grid(8, 8)]
 )

@@ -9,7 +9,8 @@ import pytest
 from meshlab_willmore import guards
 from meshlab_willmore.mesh.build import build
 from meshlab_willmore.mesh.halfedge import can_flip, flip
-from meshlab_willmore.optimize import KERNELS, SEARCHES, optimize_flips
+from meshlab_willmore.optimize import optimize_flips
+from meshlab_willmore.options import ENERGY, SEARCH
 from meshlab_willmore.search import regions
 from tests import meshes, reference
 
@@ -107,8 +108,8 @@ def assert_kept(faces, wedges, result):
 
 @pytest.mark.heavy
 @pytest.mark.parametrize("name", MAPPED)
-@pytest.mark.parametrize("energy", KERNELS)
-@pytest.mark.parametrize("search", SEARCHES)
+@pytest.mark.parametrize("energy", ENERGY.choices)
+@pytest.mark.parametrize("search", SEARCH.choices)
 def test_no_texture_triangle_is_turned_over_or_made_flat(search, energy, name):
     vertices, faces, wedges = MAPPED[name]
     options = {"search": search, "energy": energy, **QUICK}
@@ -128,7 +129,7 @@ def test_without_the_guard_triangles_are_turned_over(name):
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize("search", SEARCHES)
+@pytest.mark.parametrize("search", SEARCH.choices)
 @pytest.mark.parametrize(
     "more",
     [
@@ -193,7 +194,7 @@ def test_every_flip_that_is_left_is_a_fold(search, name):
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize("search", SEARCHES)
+@pytest.mark.parametrize("search", SEARCH.choices)
 def test_a_mapping_in_which_all_is_well_changes_nothing(search):
     vertices, faces = meshes.bumpy_sphere(60, bump=0.6)
     options = {"search": search, "energy": "willmore", **QUICK}

@@ -18,6 +18,7 @@ from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import can_flip
 from meshlab_willmore.mesh.workers import PIECE
 from meshlab_willmore.optimize import FlipResult, optimize_flips
+from meshlab_willmore.options import ENERGY, SEARCH
 from meshlab_willmore.search import peaks
 from tests import meshes, reference
 from tests.search.ways import scramble
@@ -26,7 +27,7 @@ HEAVY = pytest.mark.heavy
 POTENTIALS = [name for name, kind in KINDS.items() if kind.is_potential]
 BOTH_WILLMORE = ["virtual willmore", "willmore"]
 ENERGIES = [
-    pytest.param(name, marks=() if name in BOTH_WILLMORE else HEAVY) for name in optimize.KERNELS
+    pytest.param(name, marks=() if name in BOTH_WILLMORE else HEAVY) for name in ENERGY.choices
 ]
 HEAVY_DEPTH = pytest.param("variable depth", marks=HEAVY)
 BUMPY = meshes.bumpy_sphere(60)
@@ -251,7 +252,7 @@ def test_gain_is_before_minus_after_on_a_closed_mesh(monotone):
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize("search", optimize.SEARCHES)
+@pytest.mark.parametrize("search", SEARCH.choices)
 @pytest.mark.parametrize("energy", POTENTIALS)
 @pytest.mark.slow
 def test_gain_is_the_drop_of_the_energy_in_its_own_unit(energy, search):
@@ -268,8 +269,8 @@ def test_gain_is_the_drop_of_the_energy_in_its_own_unit(energy, search):
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize("search", optimize.SEARCHES)
-@pytest.mark.parametrize("energy", optimize.KERNELS)
+@pytest.mark.parametrize("search", SEARCH.choices)
+@pytest.mark.parametrize("energy", ENERGY.choices)
 @pytest.mark.slow
 def test_every_search_is_worth_it_on_every_energy(energy, search):
     """No single flip that is allowed lowers the energy at the end: a scan over all edges."""

@@ -9,8 +9,8 @@ import pytest
 from numba import njit
 
 from meshlab_willmore import warmup
-from meshlab_willmore.optimize import PLACES, SEARCHES, optimize_flips
-from meshlab_willmore.search.kernels import KERNELS
+from meshlab_willmore.optimize import optimize_flips
+from meshlab_willmore.options import ENERGY, SEARCH, VIRTUALPOINT
 
 ROOT = Path(__file__).parents[1]
 # All that a process has to compile, on a slow machine.
@@ -99,9 +99,9 @@ def test_every_search_of_every_energy_is_a_step_with_the_default_first():
     given = inspect.signature(optimize_flips).parameters
     assert names[0] == f"{given['search'].default}, {given['energy'].default}"
     assert len(set(names)) == len(names)
-    for search in SEARCHES:
-        assert {f"{search}, {energy}" for energy in KERNELS} < set(names)
-        assert {f"{search}, virtual points {place}" for place in PLACES} < set(names)
+    for search in SEARCH.choices:
+        assert {f"{search}, {energy}" for energy in ENERGY.choices} < set(names)
+        assert {f"{search}, virtual points {place}" for place in VIRTUALPOINT.choices} < set(names)
 
 
 def test_the_mesh_has_flips_to_make():

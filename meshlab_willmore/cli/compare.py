@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from .. import quick_start
+from ..options import ALLOWLOSS, ENERGY, SEARCH, SELECTION
 from . import progress, references, trials
 from .columns import in_columns
 from .errors import debug_option, wrong_use
@@ -31,7 +32,9 @@ Examples:
 """
 TIMEOUT = 60.0
 # These two choose the rows.
-_ROWS = ("search", "energy")
+_ROWS = (SEARCH, ENERGY)
+# These are the same for all rows.
+_NOT_SHARED = {option.name for option in (*_ROWS, SELECTION, ALLOWLOSS)}
 
 
 class Column(NamedTuple):
@@ -78,24 +81,19 @@ class CompareCommand(click.Command):
 
 @cache
 def _row_options() -> tuple[click.Option, ...]:
-    from ..compare.contenders import choices
-
     return tuple(
         click.Option(
-            [f"--{name}"],
+            [f"--{option.name}"],
             multiple=True,
-            type=click.Choice(choices(name)),
-            help=f"Only rows of this {name}; can be given several times.",
+            type=click.Choice(option.choices),
+            help=f"Only rows of this {option.name}; can be given several times.",
         )
-        for name in _ROWS
+        for option in _ROWS
     )
 
 
 def _shared_options() -> list[click.Option]:
-    from ..compare.contenders import parameters
-
-    names = {p.name for p in parameters()} - set(_ROWS)
-    return [option for option in filter_options() if option.name in names]
+    return [option for option in filter_options() if option.name not in _NOT_SHARED]
 
 
 def _time_limit(_: click.Context, __: click.Parameter, seconds: float) -> float:
@@ -169,7 +167,7 @@ def _contenders(given: dict[str, Any], peers: bool) -> list[Contender]:
     from ..compare import contenders
 
     searches, energies = (
-        dict.fromkeys(given.pop(name) or contenders.choices(name)) for name in _ROWS
+        dict.fromkeys(given.pop(option.name) or option.choices) for option in _ROWS
     )
     shared = {name: value for name, value in given.items() if value is not None}
     check_options(shared)

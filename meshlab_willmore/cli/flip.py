@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import click
 
+from ..options import OPTIONS, Option
 from . import progress, told
 from .errors import debug_option, reason
 from .masks import is_part, mask_option
@@ -15,8 +16,6 @@ from .spelling import SeveralValues
 
 if TYPE_CHECKING:
     import pymeshlab
-
-    from ..meshset.parameters import Parameter
 
 FILTER = "meshing_edge_flip_by_willmore_optimization"
 EXAMPLES = """\b
@@ -29,7 +28,7 @@ Examples:
 
 
 class FlipCommand(SeveralValues):
-    """A command that has the filter's parameters as options; they are looked up when needed."""
+    """A command that has the filter's parameters as options."""
 
     several: ClassVar = {"-m": is_part, "--mask": is_part}
 
@@ -43,27 +42,27 @@ class FlipCommand(SeveralValues):
 @cache
 def filter_options() -> tuple[click.Option, ...]:
     """An option for each parameter of the filter, in their order."""
-    from ..meshset.filters import BY_NAME
-
-    return tuple(_option(parameter) for parameter in BY_NAME[FILTER].parameters)
+    return tuple(map(_click_option, OPTIONS))
 
 
-def _option(parameter: Parameter) -> click.Option:
+def _click_option(option: Option) -> click.Option:
     """An option without a default of its own: the filter knows what is best for the mesh."""
-    name = f"--{parameter.name}"
-    if parameter.type is bool:
-        return click.Option([f"{name}/--no-{parameter.name}"], default=None, help=_help(parameter))
-    kind: Any = click.Choice(parameter.choices) if parameter.choices else parameter.type
-    return click.Option([name], type=kind, help=_help(parameter))
+    name = f"--{option.name}"
+    if option.type is bool:
+        return click.Option([f"{name}/--no-{option.name}"], default=None, help=_help(option))
+    type_: Any = click.Choice(option.choices) if option.is_choice else option.type
+    return click.Option([name], type=type_, help=_help(option))
 
 
-def _help(parameter: Parameter) -> str:
-    if callable(parameter.default):
-        return parameter.tooltip
-    value = parameter.shown_default().strip("'")
-    if parameter.type is bool:
-        value = parameter.name if parameter.default else f"no-{parameter.name}"
-    return f"{parameter.tooltip}  [default: {value}]"
+def _help(option: Option) -> str:
+    if option.default is None:
+        return option.help
+    value = option.default
+    if option.type is bool:
+        value = option.name if value else f"no-{option.name}"
+    elif option.type is float:
+        value = f"{value:g}"
+    return f"{option.help}  [default: {value}]"
 
 
 @click.command("flip", cls=FlipCommand, short_help="Flip the edges of a mesh.", epilog=EXAMPLES)
@@ -114,7 +113,7 @@ def check_options(given: dict[str, Any]) -> None:
             try:
                 value = parameter.read(given[parameter.name])
                 if parameter.check is not None:
-                    parameter.check(parameter.name, value)
+                    parameter.check(value)
             except ERRORS as error:
                 raise wrong_use(f"--{parameter.name}: {reason(error)}") from error
             except ValueError as error:

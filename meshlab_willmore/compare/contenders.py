@@ -9,7 +9,6 @@ import pymeshlab
 
 from ..demo.models import dented_cube
 from ..meshset.filters import BY_NAME
-from ..meshset.parameters import Parameter
 
 FILTER = "meshing_edge_flip_by_willmore_optimization"
 PLANAR = "meshing_edge_flip_by_planar_optimization"
@@ -58,16 +57,6 @@ PEERS = (
         for kind in ("mean", "absolute")
     ),
 )
-
-
-def choices(parameter: str) -> tuple[str, ...]:
-    """The choices of one of our filter's parameters."""
-    return next(p.choices for p in parameters() if p.name == parameter)
-
-
-def parameters() -> list[Parameter]:
-    """The parameters of our filter that a comparison leaves to the caller."""
-    return [p for p in BY_NAME[FILTER].parameters if p.name not in _ALIKE]
 
 
 def ours(

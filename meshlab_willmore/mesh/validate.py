@@ -1,7 +1,6 @@
 """Checks at the edge of the public functions: what passes is safe for the kernels."""
 
 import math
-import numbers
 
 import numpy as np
 
@@ -133,78 +132,6 @@ def check_wedge_uv(uv, faces):
         raise ValueError(f"wedge_uv must have the shape ({faces}, 3, 2), not {uv.shape}")
     with np.errstate(over="ignore", invalid="ignore"):
         return np.ascontiguousarray(uv, np.float64)
-
-
-def check_choice(name, value, choices):
-    """Raise a ValueError that lists the choices unless `value` is one of them."""
-    if not isinstance(value, str) or value not in choices:
-        listed = ", ".join(repr(choice) for choice in choices)
-        raise ValueError(f"unknown {name} {value!r}; choose one of {listed}")
-
-
-def check_degrees(name, value):
-    """Return an angle in degrees as float; it must lie in [0, 180]."""
-    if isinstance(value, (bool, np.bool_)) or not isinstance(value, numbers.Real):
-        raise TypeError(f"{name} must be a number of degrees, not {type(value).__name__}")
-    degrees = float(value)
-    if not (math.isfinite(degrees) and 0.0 <= degrees <= 180.0):
-        raise ValueError(f"{name} must lie in 0 .. 180 degrees, not {degrees}")
-    return degrees
-
-
-def check_place(name, value, choices):
-    """Return one of the names `choices` as it is, or a number between 0 and 1 as float."""
-    if isinstance(value, str) and value in choices:
-        return value
-    allowed = f"{', '.join(repr(choice) for choice in choices)} or a number between 0 and 1"
-    if isinstance(value, str):
-        raise ValueError(f"unknown {name} {value!r}; choose {allowed}")
-    if isinstance(value, (bool, np.bool_)) or not isinstance(value, numbers.Real):
-        raise TypeError(f"{name} must be {allowed}, not {type(value).__name__}")
-    place = float(value)
-    if not 0.0 < place < 1.0:
-        raise ValueError(f"{name} must be {allowed}, not {place}")
-    return place
-
-
-def check_flag(name, value):
-    """Return a switch as bool; anything but True and False is a TypeError."""
-    if not isinstance(value, (bool, np.bool_)):
-        raise TypeError(f"{name} must be True or False, not {type(value).__name__}")
-    return bool(value)
-
-
-def _is_integer(value):
-    return isinstance(value, numbers.Integral) and not isinstance(value, (bool, np.bool_))
-
-
-def check_count(name, value, most):
-    """Return an integer in 1 .. `most` as int."""
-    if not _is_integer(value):
-        raise TypeError(f"{name} must be an integer, not {type(value).__name__}")
-    if not 1 <= value <= most:
-        raise ValueError(f"{name} must lie in 1 .. {most}, not {value}")
-    return int(value)
-
-
-def check_limit(name, value):
-    """Return a number of flips as int, or None for no limit."""
-    if value is None:
-        return None
-    if not _is_integer(value):
-        raise TypeError(f"{name} must be an integer or None, not {type(value).__name__}")
-    if value < 0:
-        raise ValueError(f"{name} must not be negative, not {value}")
-    return int(value)
-
-
-def check_seed(name, value):
-    """Return an integer of at least 0, which says what random numbers to draw, as int."""
-    if not _is_integer(value):
-        raise TypeError(f"{name} must be an integer, not {type(value).__name__}")
-    if value < 0:
-        raise ValueError(f"{name} must not be negative, not {value}")
-    return int(value)
 
 
 def to_unit_scale(vertices, faces):

@@ -299,7 +299,7 @@ def _check_range(known: Known, own: KnownParam, value: Value) -> None:
     """Raise `ValueError` if a parameter of ours is out of range; MeshLab's tell no ranges."""
     for parameter in BY_NAME[known.name].parameters if known.ours else ():
         if parameter.name == own.keyword and parameter.check is not None:
-            parameter.check(own.keyword, value)
+            parameter.check(value)
 
 
 # --- names -------------------------------------------------------------------------------------

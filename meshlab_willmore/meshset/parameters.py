@@ -34,8 +34,8 @@ class Parameter(NamedTuple):
     choices : tuple of str
         The values of an enum.
     check : callable, optional
-        Gets name and value, and raises `ValueError` if the value is out of range. For scripts,
-        which are checked before they run; the filter itself checks what it gets anyway.
+        Gets a value and raises `ValueError` if it is out of range. For scripts, which are checked
+        before they run; the filter itself checks what it gets anyway.
     """
 
     name: str
@@ -44,7 +44,7 @@ class Parameter(NamedTuple):
     label: str
     tooltip: str
     choices: tuple[str, ...] = ()
-    check: Callable[[str, Any], Any] | None = None
+    check: Callable[[Any], Any] | None = None
 
     def default_for(self, ms: pymeshlab.MeshSet | None) -> Any:
         """The default value for the current mesh of `ms`; an enum's index."""

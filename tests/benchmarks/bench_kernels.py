@@ -9,8 +9,7 @@ import pytest
 from meshlab_willmore import measure, optimize_flips
 from meshlab_willmore.mesh.build import build
 from meshlab_willmore.mesh.validate import check_mesh, to_unit_scale
-from meshlab_willmore.optimize import SEARCHES
-from meshlab_willmore.search.kernels import KERNELS
+from meshlab_willmore.options import ENERGY, SEARCH
 from tests.benchmarks import surfaces
 
 FACES = 20_000
@@ -56,12 +55,12 @@ def test_measuring(benchmark, surface, name):
     warm(benchmark, getattr(measure, name), *surface)
 
 
-@pytest.mark.parametrize("energy", KERNELS)
+@pytest.mark.parametrize("energy", ENERGY.choices)
 def test_energies(benchmark, surface, energy):
     assert warm(benchmark, optimize_flips, *surface, energy=energy).flips
 
 
-@pytest.mark.parametrize("search", SEARCHES)
+@pytest.mark.parametrize("search", SEARCH.choices)
 def test_searches(benchmark, small_surface, search):
     given = {"energy": "willmore", "search": search, "sweeps": SWEEPS}
     assert warm(benchmark, optimize_flips, *small_surface, **given).flips

@@ -8,14 +8,12 @@ import pytest
 
 import meshlab_willmore
 from meshlab_willmore.cli import compare, trials
-from meshlab_willmore.cli import flip as flip_module
 from meshlab_willmore.cli.progress import Status
 from meshlab_willmore.compare import contenders
 from meshlab_willmore.compare.figures import Figures
 from meshlab_willmore.compare.reference import Sphere, deviation
 from meshlab_willmore.measure import triangle_shapes
-from meshlab_willmore.meshset import filters
-from meshlab_willmore.meshset.parameters import Parameter
+from meshlab_willmore.options import ENERGY, SEARCH
 from tests import reference
 
 from .conftest import call, cube_file, listing, loaded
@@ -152,8 +150,8 @@ def test_a_reference_adds_two_columns(cube, rows):
 def test_rows_can_be_chosen(cube, rows, monkeypatch, arguments, wanted):
     # The options are made of the real choices, once.
     compare._row_options()
-    choices = {"search": ("greedy",), "energy": ("virtual willmore", "willmore")}
-    monkeypatch.setattr(contenders, "choices", choices.get)
+    fewer = SEARCH._replace(choices=("greedy",)), ENERGY._replace(choices=ENERGY.choices[:2])
+    monkeypatch.setattr(compare, "_ROWS", fewer)
     lines = shown(call("compare", cube, "--no-peers", *arguments))[2:-1]
     assert [line.split("  ")[0] for line in lines] == ["initial", *wanted]
     assert call("compare", cube, *arguments).stdout.count("MeshLab ") == len(contenders.PEERS)
@@ -173,18 +171,10 @@ def test_parameters_of_the_filter_are_options_for_our_rows(cube, rows):
     assert rows[PLANAR.name][1] == PLANAR
 
 
-def test_a_new_parameter_becomes_an_option(monkeypatch, cube, rows):
-    filter_ = filters.BY_NAME[contenders.FILTER]
-    new = Parameter("newword", int, 7, "New", "Something new.")
-    changed = filter_._replace(parameters=(*filter_.parameters, new))
-    monkeypatch.setitem(filters.BY_NAME, contenders.FILTER, changed)
-    flip_module.filter_options.cache_clear()
-    try:
-        assert "Something new.  [default: 7]" in call("compare", "--help").stdout
-        call("compare", cube, *CHOSEN, "--newword", "9")
-    finally:
-        flip_module.filter_options.cache_clear()
-    assert rows[NAMES[1]][1].given["newword"] == 9
+def test_parameters_of_the_filter_are_those_of_all_its_rows(cube, rows):
+    call("compare", cube, *CHOSEN, "--seed", "9", "--no-monotone")
+    assert rows[NAMES[1]][1].given["seed"] == 9
+    assert rows[NAMES[1]][1].given["monotone"] is False
 
 
 def test_help_leaves_out_what_is_the_same_for_all():

@@ -8,7 +8,7 @@ import pytest
 
 from meshlab_willmore.cli import flip as flip_module
 from meshlab_willmore.meshset import filters
-from meshlab_willmore.meshset.parameters import Parameter
+from meshlab_willmore.options import OPTIONS, SEED
 
 from .conftest import call, cube_file, listing, same_mesh
 
@@ -42,34 +42,36 @@ def test_flips_as_the_filter_does(cube, arguments, given):
     )
 
 
-def test_help_has_each_parameter_with_its_tooltip_and_default():
+def test_help_has_each_option_with_its_help_text_and_default():
     text = " ".join(call("flip", "--help").stdout.split())
-    for parameter in filters.BY_NAME[flip_module.FILTER].parameters:
-        assert f"--{parameter.name}" in text
-        assert parameter.tooltip.split(".")[0] in text
+    for option in OPTIONS:
+        assert f"--{option.name}" in text
+        assert option.help.split(".")[0] in text
     assert "[default: virtual willmore]" in text
     assert "--monotone / --no-monotone" in text
     assert "meshlab-willmore flip scan.ply flipped.ply" in text
 
 
-def test_a_new_parameter_becomes_an_option(monkeypatch, cube):
-    filter_ = filters.BY_NAME[flip_module.FILTER]
-    new = Parameter("newword", int, 7, "New", "Something new.")
-    got = {}
-
-    def note(_ms, values):
-        got.update(values)
-        return {"flips": 0, "willmore_before": 0.0, "willmore_after": 0.0, "seconds": 0.0}, ""
-
-    changed = filter_._replace(parameters=(*filter_.parameters, new), run=note)
-    monkeypatch.setitem(filters.BY_NAME, flip_module.FILTER, changed)
+def test_a_new_option_is_one_of_the_command(monkeypatch):
+    new = SEED._replace(name="newword", help="Something new.", default=7)
+    monkeypatch.setattr(flip_module, "OPTIONS", (*OPTIONS, new))
     flip_module.filter_options.cache_clear()
     try:
-        assert "Something new.  [default: 7]" in call("flip", "--help").stdout
-        assert call("flip", cube, "out.ply", "--newword", "9").exit_code == 0
+        for command in ("flip", "compare"):
+            assert "Something new.  [default: 7]" in call(command, "--help").stdout
     finally:
         flip_module.filter_options.cache_clear()
-    assert got["newword"] == 9
+
+
+def test_each_parameter_of_the_filter_is_an_option_of_its_type():
+    options = {option.name: option for option in flip_module.filter_options()}
+    parameters = filters.BY_NAME[flip_module.FILTER].parameters
+    assert list(options) == [parameter.name for parameter in parameters]
+    for parameter in parameters:
+        option = options[parameter.name]
+        assert tuple(getattr(option.type, "choices", ())) == parameter.choices
+        assert option.is_bool_flag == (parameter.type is bool)
+        assert option.help.startswith(parameter.tooltip)
 
 
 @pytest.mark.parametrize(

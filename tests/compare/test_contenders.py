@@ -8,12 +8,11 @@ import meshlab_willmore
 from meshlab_willmore.compare import contenders
 from meshlab_willmore.meshset import filters
 from meshlab_willmore.meshset.catalogue import find
+from meshlab_willmore.options import ENERGY, SEARCH
 
 
 def test_there_is_a_row_for_each_search_and_energy_of_the_filter():
-    by_name = {p.name: p for p in filters.BY_NAME[contenders.FILTER].parameters}
-    searches, energies = contenders.choices("search"), contenders.choices("energy")
-    assert (searches, energies) == (by_name["search"].choices, by_name["energy"].choices)
+    searches, energies = SEARCH.choices, ENERGY.choices
     rows = contenders.ours(iter(searches), iter(energies), {"featuredeg": 30.0})
     assert [(r.search, r.energy) for r in rows] == list(product(searches, energies))
     assert len({r.name for r in (contenders.INITIAL, *rows, *contenders.PEERS)}) == len(rows) + 5
@@ -25,12 +24,6 @@ def test_there_is_a_row_for_each_search_and_energy_of_the_filter():
             "selection": False,
             "allowloss": True,
         }
-
-
-def test_parameters_are_those_that_are_not_the_same_for_all():
-    names = {p.name for p in contenders.parameters()}
-    whole = {p.name for p in filters.BY_NAME[contenders.FILTER].parameters}
-    assert names == whole - {"selection", "allowloss"}
 
 
 @pytest.mark.parametrize("peer", contenders.PEERS, ids=lambda peer: peer.name)

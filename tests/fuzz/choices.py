@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from meshlab_willmore.optimize import KERNELS, SEARCHES
+from meshlab_willmore.options import ENERGY, SEARCH
 from tests import reference
 
 
@@ -27,9 +27,9 @@ def random_mapping(rng, vertices, faces):
 
 def random_options(rng, vertices, faces):
     """Options by name."""
-    search = str(rng.choice(SEARCHES, p=[0.4, 0.15, 0.2, 0.1, 0.15]))
+    search = str(rng.choice(SEARCH.choices, p=[0.4, 0.15, 0.2, 0.1, 0.15]))
     options = {
-        "energy": str(rng.choice(list(KERNELS))),
+        "energy": str(rng.choice(ENERGY.choices)),
         "search": search,
         "checkintersections": bool(rng.random() < 0.5),
         "foldangle": _angle(rng, 90.0),

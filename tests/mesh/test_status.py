@@ -6,7 +6,7 @@ import pytest
 
 from meshlab_willmore import optimize_flips
 from meshlab_willmore.mesh.status import heard_by, report, stage
-from meshlab_willmore.optimize import SEARCHES
+from meshlab_willmore.options import SEARCH
 from tests import meshes
 
 
@@ -60,4 +60,4 @@ def test_every_search_tells_how_far_it_is(search, words):
     with heard_by(heard.append):
         optimize_flips(*meshes.bumpy_sphere(60), energy="willmore", search=search, sweeps=3)
     assert any(words in text for text in heard)
-    assert search in SEARCHES
+    assert search in SEARCH.choices

@@ -115,33 +115,6 @@ def test_faces_without_vertices():
         validate.check_mesh(np.empty((0, 3)), FACES)
 
 
-@pytest.mark.parametrize("value", [-1, 180.5, np.nan, np.inf])
-def test_degrees_out_of_range(value):
-    with pytest.raises(ValueError, match=r"foldangle must lie in 0 .. 180"):
-        validate.check_degrees("foldangle", value)
-
-
-@pytest.mark.parametrize("value", ["90", None, True, [90]])
-def test_degrees_of_a_wrong_type(value):
-    with pytest.raises(TypeError, match="foldangle must be a number"):
-        validate.check_degrees("foldangle", value)
-
-
-def test_limits_and_flags():
-    assert validate.check_limit("maxflips", None) is None
-    assert validate.check_limit("maxflips", np.int32(3)) == 3
-    assert validate.check_flag("monotone", np.bool_(True)) is True
-    assert validate.check_degrees("foldangle", np.float32(90)) == 90.0
-    with pytest.raises(ValueError, match="maxflips must not be negative, not -1"):
-        validate.check_limit("maxflips", -1)
-    for wrong in (1.0, True, "1"):
-        with pytest.raises(TypeError, match="maxflips must be an integer"):
-            validate.check_limit("maxflips", wrong)
-    for wrong in (1, "yes", None):
-        with pytest.raises(TypeError, match="monotone must be True or False"):
-            validate.check_flag("monotone", wrong)
-
-
 @pytest.mark.parametrize("scale", [1.0, 3e-7, 1e300, 1e-300, 5e-324, 1.7e308])
 def test_unit_scale_is_a_power_of_two(scale):
     vertices = VERTICES * scale

@@ -1,6 +1,5 @@
 """What the filters do to meshes good and bad."""
 
-import inspect
 import re
 
 import numpy as np
@@ -10,13 +9,11 @@ import pytest
 from meshlab_willmore import (
     intersection_angles,
     measures,
-    optimize,
     optimize_flips,
     vertex_willmore_energy,
     willmore_energy,
 )
-from meshlab_willmore.meshset import flips, scalars
-from meshlab_willmore.search import chains
+from meshlab_willmore.meshset import scalars
 from tests import meshes
 from tests.meshset.conftest import FLIP, SAMPLES, random_transform, set_of
 
@@ -47,21 +44,6 @@ def test_flips_are_those_of_the_core(energy, monotone):
         "mesh_id": 0,
     }
     assert {type(v) for v in returned.values()} == {int, float, bool}
-
-
-def test_choices_and_limits_are_those_of_the_core():
-    assert tuple(optimize.KERNELS) == flips.ENERGIES
-    assert flips.SEARCHES == optimize.SEARCHES
-    assert flips.PLACES == optimize.PLACES
-    assert flips.MOST_DEPTH == optimize.MOST_DEPTH
-    assert flips.MOST_BREADTH == chains.RING
-    assert flips.MOST_SWEEPS == optimize.MOST_SWEEPS
-    core = inspect.signature(optimize_flips).parameters
-    for parameter in flips.FLIPS.parameters:
-        if parameter.name in core and parameter.name not in ("selection", "maxflips"):
-            assert parameter.default == core[parameter.name].default
-    own = {p.name for p in flips.FLIPS.parameters} - {"selection", "allowloss"}
-    assert own == set(core) - {"vertices", "faces", "selected_faces", "locked_edges", "wedge_uv"}
 
 
 @pytest.mark.parametrize(

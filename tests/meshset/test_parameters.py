@@ -2,7 +2,7 @@ import numpy as np
 import pymeshlab
 import pytest
 
-from meshlab_willmore.meshset.flips import ENERGIES
+from meshlab_willmore.energy.table import ENERGIES
 from meshlab_willmore.meshset.parameters import Parameter, ParameterTypeError, read_all
 from tests.meshset.conftest import FLIP
 

@@ -1,0 +1,131 @@
+"""Options: checked values, and the same names, defaults and help texts wherever they are shown."""
+
+import inspect
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from meshlab_willmore import optimize_flips
+from meshlab_willmore.energy.table import ENERGIES
+from meshlab_willmore.options import (
+    ALLOWLOSS,
+    ENERGY,
+    FOLDANGLE,
+    MAXFLIPS,
+    MONOTONE,
+    OPTIONS,
+    SEARCHES,
+    SELECTION,
+    described,
+)
+from meshlab_willmore.search import chains
+
+README = Path(__file__).parents[1] / "README.md"
+OF_FILTER = {SELECTION.name, ALLOWLOSS.name}
+CORE = {option.name: option for option in OPTIONS if option.name not in OF_FILTER}
+
+
+# --- checks --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("value", [-1, 180.5, np.nan, np.inf])
+def test_degrees_out_of_range(value):
+    with pytest.raises(ValueError, match=r"foldangle must lie in 0 .. 180"):
+        FOLDANGLE.checked(value)
+
+
+@pytest.mark.parametrize("value", ["90", None, True, [90]])
+def test_degrees_of_a_wrong_type(value):
+    with pytest.raises(TypeError, match="foldangle must be a number"):
+        FOLDANGLE.checked(value)
+
+
+def test_limits_and_flags():
+    assert MAXFLIPS.checked(None) is None
+    assert MAXFLIPS.checked(np.int32(3)) == 3
+    assert MONOTONE.checked(np.bool_(True)) is True
+    assert FOLDANGLE.checked(np.float32(90)) == 90.0
+    with pytest.raises(ValueError, match="maxflips must not be negative, not -1"):
+        MAXFLIPS.checked(-1)
+    for wrong in (1.0, True, "1"):
+        with pytest.raises(TypeError, match="maxflips must be an integer or None"):
+            MAXFLIPS.checked(wrong)
+    for wrong in (1, "yes", None):
+        with pytest.raises(TypeError, match="monotone must be True or False"):
+            MONOTONE.checked(wrong)
+
+
+def test_an_integer_lies_within_its_limits():
+    for option in OPTIONS:
+        if option.most is None:
+            continue
+        assert option.checked(np.int64(option.least)) == option.least
+        for value in (option.least - 1, option.most + 1):
+            message = f"{option.name} must lie in {option.least} .. {option.most}, not {value}"
+            with pytest.raises(ValueError, match=re.escape(message)):
+                option.checked(value)
+
+
+def test_each_default_passes_its_own_check():
+    for option in OPTIONS:
+        if option not in (SELECTION, MAXFLIPS):
+            assert option.checked(option.default) == option.default
+
+
+def test_a_chain_has_room_for_the_greatest_breadth():
+    (breadth,) = (option for option in OPTIONS if option.name == "breadth")
+    assert breadth.most == chains.RING
+
+
+# --- where they are shown ------------------------------------------------------------------------
+
+
+def test_the_function_has_the_same_names_and_defaults():
+    found = inspect.signature(optimize_flips).parameters
+    arrays = {"vertices", "faces", "selected_faces", "locked_edges", "wedge_uv"}
+    assert set(found) - arrays == set(CORE)
+    for name, option in CORE.items():
+        assert found[name].default == (None if option is MAXFLIPS else option.default)
+
+
+def test_the_docstring_of_the_function_names_options_and_choices_that_there_are():
+    text = inspect.getdoc(optimize_flips)
+    parameters = text.partition("Parameters\n")[2].partition("\nReturns\n")[0]
+    assert set(CORE) < set(re.findall(r"^(\w+) : ", parameters, re.MULTILINE))
+    # The list of energies, one an item, and the set of searches.
+    assert set(re.findall(r'^ +- "([\w ]+)":', parameters, re.MULTILINE)) <= set(ENERGY.choices)
+    assert f"search : {{{', '.join(map('{!r}'.format, SEARCHES))}}}".replace("'", '"') in parameters
+    named = set(re.findall(r'"([a-z ]+)"', parameters))
+    choices = {choice for option in OPTIONS for choice in option.choices}
+    assert named <= choices
+
+
+def test_readme_has_the_help_text_of_each_option():
+    text = README.read_text(encoding="utf-8")
+    table = text.partition("| parameter | default | meaning |\n|---|---|---|\n")[2]
+    rows = table.partition("\n\n")[0].splitlines()
+    # It may leave an energy out.
+    named = {name: row.help for name, row in ENERGIES.items() if f"`'{name}'`:" in table}
+    for option, row in zip(OPTIONS, rows, strict=True):
+        meaning = option.help
+        if option is ENERGY:
+            meaning = meaning.replace(described_energies(ENERGIES), described(named))
+        default = "on where faces are selected" if option is SELECTION else shown(option)
+        assert row == f"| `{option.name}` | {default} | {as_code(meaning)} |"
+
+
+def described_energies(energies):
+    return described({name: row.help for name, row in energies.items()})
+
+
+def shown(option):
+    if option.type in (int, float):
+        return f"{option.default:g}"
+    return f"`{option.default!r}`"
+
+
+def as_code(text):
+    """Names in quotes as code."""
+    return re.sub(r"'([a-z]+( [a-z]+)*)'", r"`'\1'`", text)

@@ -8,8 +8,7 @@ from scipy.spatial import ConvexHull
 
 from meshlab_willmore import optimize_flips
 from meshlab_willmore.mesh.build import build, validate_connectivity
-from tests import meshes, reference
-from tests.studies.triangulations import (
+from studies.triangulations import (
     CORNERS,
     FAN,
     TOTALS,
@@ -20,6 +19,7 @@ from tests.studies.triangulations import (
     symmetries,
     totals,
 )
+from tests import meshes, reference
 
 FANS = [FAN] * 6
 PUSH = 0.05

@@ -3,7 +3,7 @@
 Run by hand, from the top of the repository, on a machine that does nothing else (some minutes):
 
     pip install '.[test,peers]'
-    python -m tests.benchmarks.peers
+    python -m benchmarks.peers
 
 All take turns in one process on the same meshes; medians of wall-clock time. MeshLab's curvature
 flip, which need not end, runs once in a process of its own that is killed after `--limit` seconds.
@@ -22,11 +22,11 @@ import numba
 import numpy as np
 import pymeshlab
 
+from benchmarks import machine
 from meshlab_willmore import optimize_flips
 from meshlab_willmore.demo.scan import scan_file
+from studies import models
 from tests import meshes
-from tests.benchmarks import machine
-from tests.studies import models
 
 OUR_FILTER = "our filter"
 OUR_KERNEL = "our kernel"
@@ -201,7 +201,7 @@ def main(arguments):
 
 
 def _options(arguments):
-    parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.peers")
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.peers")
     parser.add_argument("--points", type=int, default=200_000, help="of the torus")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument(

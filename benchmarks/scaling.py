@@ -2,8 +2,8 @@
 
 Run by hand, from the top of the repository, on a machine that does nothing else:
 
-    python -m tests.benchmarks.scaling
-    python -m tests.benchmarks.scaling --most 10000000
+    python -m benchmarks.scaling
+    python -m benchmarks.scaling --most 10000000
 
 Each size has a process of its own, which gets its mesh from a file, so that the peak of its memory
 is that of the flips. It is counted above what the process holds with the mesh (vertices and faces)
@@ -23,9 +23,9 @@ import tempfile
 
 import numpy as np
 
+from benchmarks import machine, surfaces
 from meshlab_willmore import optimize_flips
-from tests.benchmarks import machine, surfaces
-from tests.studies.models import print_table
+from studies.models import print_table
 
 DEFAULT_SEARCH = inspect.signature(optimize_flips).parameters["search"].default
 LEAST = 10_000
@@ -54,7 +54,7 @@ def measured(faces, options):
         path = pathlib.Path(folder, "mesh.npz")
         vertices, triangles = surfaces.sheared_torus(faces)
         np.savez(path, vertices=vertices, faces=triangles)
-        program = [sys.executable, "-m", "tests.benchmarks.scaling", "--mesh", str(path)]
+        program = [sys.executable, "-m", "benchmarks.scaling", "--mesh", str(path)]
         given = ["--search", options.search, "--rounds", str(options.rounds)]
         done = subprocess.run([*program, *given], capture_output=True, text=True, check=True)
     return json.loads(done.stdout)
@@ -125,7 +125,7 @@ def forget_peak():
 
 
 def main(arguments):
-    parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.scaling")
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.scaling")
     parser.add_argument("--most", type=int, default=1_000_000, help="faces")
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--search", default=DEFAULT_SEARCH)

@@ -1,16 +1,16 @@
 """Kernels, warm: connectivity, measures, and each energy and search.
 
 pip install '.[bench]'
-python -m pytest -o python_files='bench_*.py' tests/benchmarks
+python -m pytest -o python_files='bench_*.py' benchmarks
 """
 
 import pytest
 
+from benchmarks import surfaces
 from meshlab_willmore import measure, optimize_flips
 from meshlab_willmore.mesh.build import build
 from meshlab_willmore.mesh.validate import check_mesh, to_unit_scale
 from meshlab_willmore.options import ENERGY, SEARCH
-from tests.benchmarks import surfaces
 
 FACES = 20_000
 ROUNDS = 5

@@ -2,7 +2,7 @@
 
 Run by hand, from the top of the repository, on a machine that does nothing else:
 
-    python -m tests.benchmarks.floor
+    python -m benchmarks.floor
 
 The floor is that arithmetic alone, on the numbers of the same edges, gathered beforehand and one
 behind the other in memory: no connectivity, nothing looked up, nothing written but the results. On
@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numba
 import numpy as np
 
+from benchmarks import machine
 from meshlab_willmore import optimize
 from meshlab_willmore.energy import virtual, willmore
 from meshlab_willmore.energy.angles import radians, rough
@@ -37,9 +38,8 @@ from meshlab_willmore.search.lanes import (
     find_drops,
     is_positive,
 )
+from studies.models import print_table
 from tests import meshes
-from tests.benchmarks import machine
-from tests.studies.models import print_table
 
 ENERGY = "virtual willmore"
 NANO = 1e-9
@@ -141,7 +141,7 @@ def blocks_of(mesh, edges):
 
 
 def main(arguments):
-    parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.floor")
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.floor")
     parser.add_argument("--points", type=int, default=200_000, help="of the torus")
     parser.add_argument("--rounds", type=int, default=9)
     options = parser.parse_args(arguments)

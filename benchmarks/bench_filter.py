@@ -1,7 +1,7 @@
 """The filter from set to set: warm, and in a process of its own with a full and an empty cache.
 
 pip install '.[bench]'
-python -m pytest -o python_files='bench_*.py' tests/benchmarks
+python -m pytest -o python_files='bench_*.py' benchmarks
 """
 
 import os
@@ -11,7 +11,7 @@ import sys
 import pymeshlab
 import pytest
 
-from tests.benchmarks import surfaces
+from benchmarks import surfaces
 
 FACES = 20_000
 ROUNDS = 5

@@ -2,7 +2,7 @@
 
 Run by hand, from the top of the repository (some minutes):
 
-    python -m tests.studies.virtual_points
+    python -m studies.virtual_points
 """
 
 import numpy as np
@@ -15,9 +15,9 @@ from meshlab_willmore.mesh.build import build, faces_of
 from meshlab_willmore.mesh.halfedge import can_flip
 from meshlab_willmore.search import greedy
 from meshlab_willmore.search.rules import Rules
+from studies import models
+from studies.both_points import greedy_both
 from tests import meshes
-from tests.studies import models
-from tests.studies.both_points import greedy_both
 
 PLACES = ["midpoint", "closest", 0.4, 0.3, 0.2, 0.1, 0.01]
 HEAD = ["model", "virtual points", "flips", "W", "area", "M", "normal error"]

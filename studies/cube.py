@@ -3,7 +3,7 @@
 Run by hand, from the top of the repository; the number says from how many triangulations the
 search beyond the cube's own edges goes on (5,000 take some ten minutes):
 
-    python -m tests.studies.cube 5000
+    python -m studies.cube 5000
 """
 
 import sys
@@ -14,9 +14,8 @@ import pymeshlab
 from meshlab_willmore import optimize_flips
 from meshlab_willmore.energy.kinds import KINDS
 from meshlab_willmore.mesh.build import build
-from tests.meshes import cube
-from tests.studies.models import print_table
-from tests.studies.triangulations import (
+from studies.models import print_table
+from studies.triangulations import (
     CORNERS,
     FAN,
     TOTALS,
@@ -26,6 +25,7 @@ from tests.studies.triangulations import (
     faces_of_ways,
     totals,
 )
+from tests.meshes import cube
 
 PUSHES = [0.01, 0.05, 0.1, 0.2, 0.3, 0.4]
 SEARCHES = ["greedy", "variable depth"]

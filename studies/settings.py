@@ -2,7 +2,7 @@
 
 Run by hand, from the top of the repository, on a machine that does nothing else (some minutes):
 
-    python -m tests.studies.settings
+    python -m studies.settings
 """
 
 import time
@@ -13,9 +13,9 @@ from meshlab_willmore import optimize_flips
 from meshlab_willmore.demo.scan import scan_file
 from meshlab_willmore.measure import triangle_shapes, willmore_energy
 from meshlab_willmore.mesh.build import build, faces_of
+from studies import models
 from tests import meshes
 from tests.search.ways import scramble
-from tests.studies import models
 
 THOROUGH = {"energy": "willmore", "search": "thorough"}
 SETTINGS = [

@@ -69,17 +69,18 @@ def source_key() -> str:
 class _Locator:
     """The folder for one kernel, in the form that Numba's cache asks for."""
 
-    def __init__(self, folder, source, line):
+    def __init__(self, folder, source, function):
         self._folder = folder
         self._py_file = source
-        self._line = line
+        self._line = function.__code__.co_firstlineno
+        self._module = function.__module__
 
     @classmethod
     def from_function(cls, function, source):
         """Return a locator with the first folder that can be written, or None."""
         for folder in _folders(source):
             if _is_writable(folder):
-                return cls(folder, source, function.__code__.co_firstlineno)
+                return cls(folder, source, function)
         return None
 
     def ensure_cache_path(self):
@@ -91,7 +92,9 @@ class _Locator:
     def get_source_stamp(self):
         if _PACKAGE in Path(self._py_file).resolve().parents:
             return source_key()
-        return source_key() + hashlib.sha256(Path(self._py_file).read_bytes()).hexdigest()
+        # What is kept imports its module by name, which a file that was moved no longer has.
+        found = hashlib.sha256(self._module.encode() + b"\0" + Path(self._py_file).read_bytes())
+        return source_key() + found.hexdigest()
 
     def get_disambiguator(self):
         return str(self._line)

@@ -84,6 +84,13 @@ def test_a_full_disk_costs_the_time_to_compile_only(folder, monkeypatch):
     assert [error.errno for error in kernel_cache.write_errors] == [errno.ENOSPC] * 2
 
 
+@pytest.mark.heavy
+def test_a_file_that_was_moved_is_compiled_anew(folder, monkeypatch):
+    assert misses(kernel()) == 1
+    monkeypatch.setattr(twice, "__module__", "moved")
+    assert [misses(kernel()), misses(kernel())] == [1, 0]
+
+
 def key_of(monkeypatch, package):
     monkeypatch.setattr(kernel_cache, "_PACKAGE", package)
     kernel_cache.source_key.cache_clear()

@@ -11,6 +11,7 @@ from meshlab_willmore.measure import self_intersections
 from meshlab_willmore.optimize import optimize_flips
 from meshlab_willmore.options import ENERGY, SEARCH
 from tests import meshes
+from tests.combinations import pairwise
 from tests.guards.test_meshlab_tests import counted
 
 COW = Path(pymeshlab.__file__).parent / "tests" / "sample_meshes" / "cow.obj"
@@ -50,26 +51,17 @@ def new_faces(before, after):
 
 def combinations():
     """All meshes, energies, searches and options: by day such that each two of them meet."""
-    ways = [{}, {"foldangle": 180.0, "monotone": False}]
-    numbered = (enumerate(values) for values in (MESHES, ENERGY.choices, SEARCH.choices, ways))
-    for (m, name), (e, energy), (s, search), (w, options) in itertools.product(*numbered):
-        is_daily = s == (m + e) % len(SEARCH.choices) and w == (m // 2 + e) % len(ways)
-        marks = () if is_daily else pytest.mark.nightly
-        yield pytest.param(search, energy, options, name, marks=marks)
-
-
-def test_by_day_each_two_options_meet():
-    daily = [row.values for row in combinations() if not row.marks]
-    assert len(daily) < 60
-    columns = [list(map(str, column)) for column in zip(*daily, strict=True)]
-    for one, other in itertools.combinations(columns, 2):
-        assert len({*zip(one, other, strict=True)}) == len({*one}) * len({*other})
+    parameters = MESHES, ENERGY.choices, SEARCH.choices, [{}, {"foldangle": 180.0, "monotone": False}]
+    daily = pairwise(*parameters)
+    for numbers in itertools.product(*(range(len(values)) for values in parameters)):
+        row = [list(values)[n] for values, n in zip(parameters, numbers, strict=True)]
+        yield pytest.param(*row, marks=() if numbers in daily else pytest.mark.nightly)
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize(("search", "energy", "options", "name"), list(combinations()))
+@pytest.mark.parametrize(("name", "energy", "search", "options"), list(combinations()))
 @pytest.mark.slow
-def test_no_new_face_cuts_and_meshlab_counts_no_more(search, energy, options, name):
+def test_no_new_face_cuts_and_meshlab_counts_no_more(name, energy, search, options):
     vertices, faces = MESHES[name]()
     options = {"search": search, "energy": energy, "depth": 3, "breadth": 1, **options}
     options["sweeps"] = 5

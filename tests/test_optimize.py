@@ -9,9 +9,7 @@ import numpy as np
 import pytest
 
 from meshlab_willmore import guards, optimize
-from meshlab_willmore.energy import (
-    willmore,
-)
+from meshlab_willmore.energy import willmore
 from meshlab_willmore.energy.kinds import KINDS
 from meshlab_willmore.measure import measures, triangle_shapes, willmore_energy
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
@@ -21,14 +19,11 @@ from meshlab_willmore.optimize import FlipResult, optimize_flips
 from meshlab_willmore.options import ENERGY, SEARCH
 from meshlab_willmore.search import peaks
 from tests import meshes, reference
+from tests.combinations import BOTH_WILLMORE, ENERGIES, ENERGIES_AND_RULES
 from tests.search.ways import scramble
 
 HEAVY = pytest.mark.heavy
 POTENTIALS = [name for name, kind in KINDS.items() if kind.is_potential]
-BOTH_WILLMORE = ["virtual willmore", "willmore"]
-ENERGIES = [
-    pytest.param(name, marks=() if name in BOTH_WILLMORE else HEAVY) for name in ENERGY.choices
-]
 HEAVY_DEPTH = pytest.param("variable depth", marks=HEAVY)
 BUMPY = meshes.bumpy_sphere(60)
 PATCH = meshes.patch(60)
@@ -242,10 +237,9 @@ def test_the_hull_of_sphere_points_is_left_alone():
     assert result.willmore_after == pytest.approx(0.0, abs=1e-9)
 
 
-@pytest.mark.parametrize("monotone", [True, False])
-def test_gain_is_before_minus_after_on_a_closed_mesh(monotone):
+def test_gain_is_before_minus_after_on_a_closed_mesh():
     for vertices, faces in (BUMPY, meshes.torus(200, None, 1)):
-        result = optimize_flips(vertices, faces, energy="willmore", monotone=monotone)
+        result = optimize_flips(vertices, faces, energy="willmore")
         drop = result.willmore_before - result.willmore_after
         assert result.flips > 10
         assert result.gain == pytest.approx(drop, rel=1e-9)
@@ -401,8 +395,7 @@ def rotation(seed):
     return matrix * np.sign(np.linalg.det(matrix))
 
 
-@pytest.mark.parametrize("energy", ENERGIES)
-@pytest.mark.parametrize("monotone", [True, False])
+@pytest.mark.parametrize(("energy", "monotone"), ENERGIES_AND_RULES)
 @pytest.mark.parametrize("mesh", [BUMPY, PATCH])
 def test_similarities_change_nothing(mesh, monotone, energy):
     vertices, faces = mesh
@@ -603,8 +596,7 @@ ODD = {
 
 
 @pytest.mark.parametrize("name", ODD)
-@pytest.mark.parametrize("monotone", [True, False])
-@pytest.mark.parametrize("energy", ENERGIES)
+@pytest.mark.parametrize(("energy", "monotone"), ENERGIES_AND_RULES)
 @pytest.mark.parametrize("search", ["parallel greedy", "greedy", HEAVY_DEPTH])
 def test_odd_meshes_get_a_right_result(search, energy, monotone, name):
     vertices, faces = ODD[name]

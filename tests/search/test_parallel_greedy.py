@@ -23,11 +23,10 @@ from meshlab_willmore.search.kernels import KERNELS
 from meshlab_willmore.search.peaks import IS_BLOCKED, IS_JOINED, IS_PEAK, STAYS, Look
 from meshlab_willmore.search.rules import CONVERGED, STOPPED
 from tests import meshes, reference
+from tests.combinations import BOTH_WILLMORE, ENERGIES, ENERGIES_AND_RULES
 from tests.search.ways import FREE, GUARDED, MESHES, rules_for, shuffled
 
 HEAVY = pytest.mark.heavy
-BOTH_WILLMORE = ["virtual willmore", "willmore"]
-ENERGIES = [pytest.param(e, marks=() if e in BOTH_WILLMORE else HEAVY) for e in KERNELS]
 ALL_MESHES = {**MESHES, "shuffled": lambda: shuffled(20, 1)}
 
 
@@ -105,14 +104,13 @@ def rounds_by_scanning(mesh, rules, energy):
 
 @HEAVY
 @pytest.mark.parametrize("name", ALL_MESHES)
-@pytest.mark.parametrize("monotone", [True, False])
 @pytest.mark.parametrize("fold", [GUARDED, FREE])
-@pytest.mark.parametrize("energy", [e for e in KERNELS if not KINDS[e].is_wide])
+@pytest.mark.parametrize(
+    ("energy", "monotone"), [p for p in ENERGIES_AND_RULES if not KINDS[p.values[0]].is_wide]
+)
 @pytest.mark.slow
 def test_the_rounds_are_those_of_a_scan(energy, fold, monotone, name):
-    rules = rules_for(energy, fold)
-    if not rules.is_potential:
-        rules = rules._replace(monotone=monotone)
+    rules = rules_for(energy, fold)._replace(monotone=monotone)
     scanned, searched = ALL_MESHES[name](), ALL_MESHES[name]()
     flips, gain = rounds_by_scanning(scanned, rules, energy)
     progress = parallel_greedy.run(KERNELS[energy].score, searched, rules)

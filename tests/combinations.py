@@ -1,0 +1,51 @@
+"""Which options tests combine: none that mean the same, and pairs of values for whole products."""
+
+import itertools
+
+import pytest
+
+from meshlab_willmore.energy.kinds import KINDS
+
+# Without the JIT, kernels of the others take too long.
+BOTH_WILLMORE = ("virtual willmore", "willmore")
+
+
+def _param(energy, *values):
+    marks = () if energy in BOTH_WILLMORE else pytest.mark.heavy
+    return pytest.param(energy, *values, marks=marks)
+
+
+ENERGIES = [_param(energy) for energy in KINDS]
+# `energy` and `monotone`, which means nothing where a cost reduction is the drop of the energy.
+ENERGIES_AND_RULES = [
+    _param(energy, monotone)
+    for energy, kind in KINDS.items()
+    for monotone in ((True,) if kind.is_potential else (True, False))
+]
+
+
+def pairwise(*parameters):
+    """Choose rows of the product such that each two values of two parameters meet in one.
+
+    Parameters
+    ----------
+    parameters : sequence
+        The values of one parameter.
+
+    Returns
+    -------
+    set of tuple of int
+        For each parameter the number of its value. Always the same ones, and few of all.
+    """
+    numbers = [range(len(values)) for values in parameters]
+    pairs_of = {row: _pairs(row) for row in itertools.product(*numbers)}
+    left, rows = set().union(*pairs_of.values()), set()
+    while left:
+        row = max(pairs_of, key=lambda row: len(pairs_of[row] & left))
+        left -= pairs_of[row]
+        rows.add(row)
+    return rows
+
+
+def _pairs(row):
+    return set(itertools.combinations(enumerate(row), 2))

@@ -51,7 +51,8 @@ def new_faces(before, after):
 
 def combinations():
     """All meshes, energies, searches and options: by day such that each two of them meet."""
-    parameters = MESHES, ENERGY.choices, SEARCH.choices, [{}, {"foldangle": 180.0, "monotone": False}]
+    ways = [{}, {"foldangle": 180.0, "monotone": False}]
+    parameters = MESHES, ENERGY.choices, SEARCH.choices, ways
     daily = pairwise(*parameters)
     for numbers in itertools.product(*(range(len(values)) for values in parameters)):
         row = [list(values)[n] for values, n in zip(parameters, numbers, strict=True)]

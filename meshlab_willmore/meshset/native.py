@@ -208,32 +208,11 @@ def unrecorded(ms: MeshSet) -> Iterator[None]:
             if _script(ms, path.with_name("after.mlx")) != before:
                 clear_script(ms)
                 if b"<filter" in before:
-                    load_script(ms, path)
-                    _rounded.put(ms, True)
+                    with muted():
+                        _load_filter_script(ms, str(path))
 
 
 _WHOLE_SCRIPT = (b"</FilterScript>", b"<FilterScript/>")
-
-
-# Scripts that PyMeshLab has written and read again: numbers in them have six digits left.
-_rounded: PerSet[bool] = PerSet(False)
-
-
-def is_rounded(ms: MeshSet) -> bool:
-    """Whether PyMeshLab's script of `ms` has lost digits while helper filters ran."""
-    return _rounded.get(ms)
-
-
-def forget_rounding(ms: MeshSet) -> None:
-    """Forget it, since the script is another."""
-    if _rounded.get(ms):
-        _rounded.put(ms, False)
-
-
-def load_script(ms: MeshSet, path: Path) -> None:
-    """Load a filter script in the place of the set's own."""
-    with muted():
-        _load_filter_script(ms, str(path))
 
 
 def clear_script(ms: MeshSet) -> None:

@@ -74,8 +74,14 @@ def parameter_values(
         return ask(ms, name, **given)
     with prepared(ms, name, given) as called:
         values = ask(ms, name, **called)
-    ids = {key: numbering.logical_id(ms, values[key]) for key in _id_keywords(known, values)}
-    return {**values, **ids}
+    return {**values, **logical_ids(ms, name, values)}
+
+
+def logical_ids(ms: MeshSet, name: object, values: dict[str, Any]) -> dict[str, int]:
+    """The logical ids for the physical ones among the values of a native filter's parameters."""
+    known = _known(name)
+    keywords = _id_keywords(known, values) if known else ()
+    return {key: numbering.logical_id(ms, values[key]) for key in keywords}
 
 
 def physical(ms: MeshSet, known: Known, given: dict[str, Any]) -> dict[str, Any]:

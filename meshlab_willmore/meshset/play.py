@@ -100,7 +100,6 @@ def _play_one(ms: MeshSet, call: Call, source: str) -> Played:
             if call.known.needs_mesh and native.ids(ms):
                 # Where none is current, this raises; PyMeshLab's filters would crash.
                 native.current_mesh(ms)
-            given = _without_defaults(ms, name, given)
             with native_calls.prepared(ms, name, given) as completed:
                 returned = native.apply(ms, name, **completed)
     except Exception as error:
@@ -138,17 +137,3 @@ def _native_value(call: Call, keyword: str, value: Any) -> Any:
         is_matrix = len(array) == _MATRIX_SIDE * _MATRIX_SIDE
         return array.reshape(_MATRIX_SIDE, _MATRIX_SIDE) if is_matrix else array
     return value
-
-
-def _without_defaults(ms: MeshSet, name: str, given: dict[str, Any]) -> dict[str, Any]:
-    """Leave out points that are the filter's own default on this mesh.
-
-    The default has double precision, which no caller can pass on: PyMeshLab takes points in single.
-    """
-    points = [key for key, value in given.items() if np.shape(value) == (3,)]
-    if not points or not ms.mesh_number():
-        return given
-    with native.muted():
-        defaults = native.defaults(ms, name)
-    same = {key for key in points if np.array_equal(given[key], defaults.get(key, np.nan))}
-    return {key: value for key, value in given.items() if key not in same}

@@ -1,81 +1,54 @@
 """The filter script of a set, with our filters in their place among the native steps.
 
-PyMeshLab records native steps itself, and its script can hold no other: they stay there, and what
-is noted here is where our steps stand between them. Noted too is what PyMeshLab would write of a
-native step in a way that does not come back: numbers (it writes six digits), text outside ASCII
-(it writes in the encoding of the system), and ids of layers, which our filters shift (see
-`numbering`).
+PyMeshLab records native steps itself, and its script can hold no other: they stay there, as it
+writes them. What is noted here is the place of our steps between them, and the ids of layers that
+native steps were called with, where our filters have shifted them (see `numbering`).
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import nullcontext
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
-import numpy as np
 from pymeshlab import MeshSet
 
 from ..mlx.read import read, read_bytes
-from ..mlx.steps import Param, ScriptError, Step, Value
-from . import catalogue, native, numbering
+from ..mlx.steps import Param, ScriptError, Step
+from . import catalogue, native
 from .check import faults_of, is_todays
 from .filter import Filter
 from .filters import FILTERS
+from .keywords import keyword_of
 from .modern import modernised
 
-Noted = dict[str, Value]
+# The logical ids of a native step, by the keyword of the parameter.
+Ids = dict[str, int]
 
-# Filters whose defaults can't be asked for without PyMeshLab printing something.
-_TALKING = frozenset(
-    {
-        "compute_color_from_scalar_per_face",
-        "compute_selection_by_scalar_per_face",
-        "get_scalar_histogram_per_face",
-    }
-)
-
-# What QString::number writes of a float.
-_DIGITS_OF_MESHLAB = ".6g"
-
-
-class _Native(NamedTuple):
-    """The next step of PyMeshLab's own script, and exact values of it by keyword."""
-
-    name: str
-    exact: Noted
-
-
-_UNNOTED = _Native("", {})
-
+NO_IDS: Ids = {}
 _UNNAMED = "filter script"
 
-# By set: the whole script in order. A `Step` is ours, or was loaded with others of ours.
-_entries: native.PerSet[tuple[_Native | Step, ...]] = native.PerSet(())
+# By set: the whole script in order. A `Step` is ours, or was loaded with others of ours; `Ids`
+# belong to the next step of PyMeshLab's own script.
+_entries: native.PerSet[list[Ids | Step] | None] = native.PerSet(None)
 # By set: the file that the script was loaded from, if that holds ours.
 _sources: native.PerSet[str] = native.PerSet(_UNNAMED)
 
 
 def holds_more(ms: MeshSet) -> bool:
-    """Whether the script of `ms` holds what PyMeshLab's own script does not.
-
-    That is steps of ours, digits that it has lost, and ids of layers that have moved.
-    """
-    if native.is_rounded(ms) or any(isinstance(entry, Step) for entry in _entries.get(ms)):
-        return True
-    return numbering.has_moved(ms) and b'type="RichMesh"' in native.script_of(ms)
+    """Whether the script of `ms` holds what PyMeshLab's own does not: our steps, or moved ids."""
+    return any(isinstance(entry, Step) or entry for entry in _entries.get(ms) or ())
 
 
 def steps_of(ms: MeshSet) -> tuple[Step, ...]:
     """All steps of the script of `ms`."""
     # What stands there has run, whatever it looks like.
     recorded = read_bytes(native.script_of(ms), _UNNAMED, strict=False)
-    waiting = iter(recorded)
-    entries = _in_step(_entries.get(ms), len(recorded))
+    remaining = iter(recorded)
+    entries = _in_step(_entries.get(ms) or [], len(recorded))
     return tuple(
-        entry if isinstance(entry, Step) else _with_exact(next(waiting), entry) for entry in entries
+        entry if isinstance(entry, Step) else _with_ids(next(remaining), entry) for entry in entries
     )
 
 
@@ -83,8 +56,7 @@ def put(ms: MeshSet, steps: Iterable[Step], source: str) -> None:
     """Make `steps`, which were read from `source`, the script of `ms`."""
     _sources.put(ms, source)
     native.clear_script(ms)
-    native.forget_rounding(ms)
-    _entries.put(ms, tuple(steps))
+    _entries.put(ms, list(steps))
 
 
 def source_of(ms: MeshSet) -> str:
@@ -94,11 +66,10 @@ def source_of(ms: MeshSet) -> str:
 
 def forget(ms: MeshSet) -> None:
     """Forget what was noted: PyMeshLab's own script was cleared, or filled by another."""
-    native.forget_rounding(ms)
     if _sources.get(ms) != _UNNAMED:
         _sources.put(ms, _UNNAMED)
     if _entries.get(ms):
-        _entries.put(ms, ())
+        _entries.put(ms, None)
 
 
 def our_script(path: str) -> tuple[Step, ...] | None:
@@ -158,50 +129,25 @@ def catch_up(ms: MeshSet) -> None:
         If PyMeshLab can't write its script.
     """
     recorded = native.script_of(ms).count(b"<filter ")
-    _entries.put(ms, _in_step(_entries.get(ms), recorded))
+    _entries.put(ms, _in_step(_entries.get(ms) or [], recorded))
 
 
 def note_ours(ms: MeshSet, filter_: Filter, values: dict[str, Any]) -> None:
     """Append a step of ours, which was run with these values."""
-    _entries.put(ms, (*_entries.get(ms), _step(filter_, values)))
+    _append(ms, _step(filter_, values))
 
 
-def note_native(ms: MeshSet, name: str, exact: Noted) -> None:
-    """Note the exact values of a native step that PyMeshLab has just recorded."""
-    _entries.put(ms, (*_entries.get(ms), _Native(name, exact)))
+def note_native(ms: MeshSet, ids: Ids) -> None:
+    """Append a native step, with the logical ids that it was called with."""
+    _append(ms, ids)
 
 
-def exact_values(ms: MeshSet, name: object, given: dict[str, Any]) -> Noted:
-    """The values of a native call that its recorded step would not hold exactly, by keyword."""
-    known = catalogue.find(name) if isinstance(name, str) else None
-    readers = {p.keyword: _EXACT[p.type] for p in known.params if p.type in _EXACT} if known else {}
-    if not known or not readers:
-        return {}
-    try:
-        with native.muted() if known.name in _TALKING else nullcontext():
-            values = native.defaults(ms, known.name, **given)
-    except native.ERRORS:
-        # The call itself will say what is wrong with it.
-        return {}
-    return {key: read(ms, values[key]) for key, read in readers.items() if key in values}
-
-
-def _array(_: MeshSet, values: Any) -> Value:
-    return tuple(np.ravel(values).tolist())
-
-
-_EXACT: dict[str, Callable[[MeshSet, Any], Value]] = {
-    "RichFloat": lambda _, value: float(value),
-    "RichDynamicFloat": lambda _, value: float(value),
-    "RichAbsPerc": lambda _, value: float(value),
-    "RichPosition": _array,
-    "RichDirection": _array,
-    "RichMatrix44f": _array,
-    "RichString": lambda _, value: value,
-    "RichOpenFile": lambda _, value: value,
-    "RichSaveFile": lambda _, value: value,
-    "RichMesh": numbering.logical_id,
-}
+def _append(ms: MeshSet, entry: Ids | Step) -> None:
+    entries = _entries.get(ms)
+    if entries is None:
+        _entries.put(ms, [entry])
+    else:
+        entries.append(entry)
 
 
 def _step(filter_: Filter, values: dict[str, Any]) -> Step:
@@ -221,61 +167,24 @@ def _step(filter_: Filter, values: dict[str, Any]) -> Step:
 # --- reading back ------------------------------------------------------------------------------
 
 
-def _in_step(entries: tuple[_Native | Step, ...], recorded: int) -> tuple[_Native | Step, ...]:
+def _in_step(entries: list[Ids | Step], recorded: int) -> list[Ids | Step]:
     """The entries with one for each native step that PyMeshLab recorded, noted or not.
 
-    Steps from before this package was imported come first. Whoever kept PyMeshLab's functions from
-    then can also have cleared the script: its last steps are what is left.
+    Steps from before this package was imported come first. A caller who kept PyMeshLab's functions
+    from then can also have cleared the script: its last steps are what is left.
     """
-    extra = recorded - sum(isinstance(entry, _Native) for entry in entries)
+    extra = recorded - sum(not isinstance(entry, Step) for entry in entries)
     if extra < 0:
-        return tuple(_without_first(entries, -extra))
-    unnoted = (_UNNOTED,) * extra
+        native_places = [i for i, entry in enumerate(entries) if not isinstance(entry, Step)]
+        gone = set(native_places[:-extra])
+        return [entry for i, entry in enumerate(entries) if i not in gone]
+    unnoted: list[Ids | Step] = [NO_IDS] * extra
     has_ours = any(isinstance(entry, Step) for entry in entries)
-    return (*entries, *unnoted) if has_ours else (*unnoted, *entries)
+    return [*entries, *unnoted] if has_ours else [*unnoted, *entries]
 
 
-def _without_first(entries: tuple[_Native | Step, ...], surplus: int) -> Iterator[_Native | Step]:
-    for entry in entries:
-        if isinstance(entry, _Native) and surplus:
-            surplus -= 1
-        else:
-            yield entry
-
-
-def _with_exact(step: Step, noted: _Native) -> Step:
-    known = catalogue.find(step.filter)
-    if known is None or known.name != noted.name:
+def _with_ids(step: Step, ids: Ids) -> Step:
+    if not ids:
         return step
-    params = []
-    for param in step.params:
-        exact = noted.exact.get(catalogue.keyword_of(param.name), param.value)
-        same = _same(param.value, exact)
-        params.append(param._replace(value=_shortest(exact)) if same else param)
+    params = (p._replace(value=ids.get(keyword_of(p.name), p.value)) for p in step.params)
     return step._replace(params=tuple(params))
-
-
-def _same(written: Value, exact: Value) -> bool:
-    """Whether PyMeshLab could have written the one for the other."""
-    if isinstance(written, str) or isinstance(exact, str):
-        return isinstance(exact, str)
-    if isinstance(written, int):
-        return isinstance(exact, int)
-    return _digits(written) == _digits(exact)
-
-
-def _shortest(value: Value) -> Value:
-    """Numbers of single precision with the fewest digits that say them."""
-    if isinstance(value, tuple):
-        return tuple(_fewest_digits(number) for number in value)
-    return _fewest_digits(value) if isinstance(value, float) else value
-
-
-def _fewest_digits(number: float) -> float:
-    with np.errstate(over="ignore"):
-        single = np.float32(number)
-    return float(str(single)) if float(single) == number else number
-
-
-def _digits(value: Value) -> list[str]:
-    return [format(number, _DIGITS_OF_MESHLAB) for number in np.ravel(np.array(value, dtype=float))]

@@ -10,7 +10,7 @@ from __future__ import annotations
 import functools
 import os
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -119,12 +119,14 @@ def _wrap_apply_filter(wrapped: Callable) -> Callable:
             recording.note_ours(self, filter_, values)
             return returned
         name = args[0] if args else kwargs.get("filter_name")
-        moved = numbering.has_moved(self)
-        with native_calls.prepared(self, name, kwargs) if moved else nullcontext(kwargs) as given:
-            exact = recording.exact_values(self, name, given)
+        if not numbering.has_moved(self):
             with native.spoken(self):
-                returned = wrapped(self, *args, **given)
-        recording.note_native(self, str(name), exact)
+                returned = wrapped(self, *args, **kwargs)
+            recording.note_native(self, recording.NO_IDS)
+            return returned
+        with native_calls.prepared(self, name, kwargs) as given, native.spoken(self):
+            returned = wrapped(self, *args, **given)
+        recording.note_native(self, native_calls.logical_ids(self, name, given))
         return returned
 
     return apply_filter

@@ -600,7 +600,8 @@ def natively(tmp_path, xml):
     path = tmp_path / "native.mlx"
     path.write_text(f"<FilterScript>{xml}</FilterScript>")
     ms = pymeshlab.MeshSet()
-    native.load_script(ms, path)
+    with native.muted():
+        native._load_filter_script(ms, str(path))
     ms.apply_filter_script()
     return ms
 

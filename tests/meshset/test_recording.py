@@ -11,6 +11,7 @@ import pymeshlab
 import pytest
 
 import meshlab_willmore
+from meshlab_willmore.meshset import native
 from meshlab_willmore.mlx.read import read
 from meshlab_willmore.mlx.steps import Step
 from meshlab_willmore.mlx.write import to_xml
@@ -21,15 +22,19 @@ SCALAR = "compute_scalar_by_willmore_energy_per_vertex"
 MEASURE = "get_willmore_measures"
 SAMPLE_SCRIPT = SAMPLES / "sample_filter_script.mlx"
 
-OURS = {"flip": (FLIP, {"foldangle": 80.1}), "energy": (SCALAR, {}), "measure": (MEASURE, {})}
+OURS = {
+    "flip": (FLIP, {"foldangle": 80.123456789}),
+    "energy": (SCALAR, {}),
+    "measure": (MEASURE, {}),
+}
+# The six digits that PyMeshLab writes of a number are all of these.
+LENGTH, SIZE = pymeshlab.PureValue(0.0625), pymeshlab.PureValue(0.1875)
 NATIVE = {
-    # PyMeshLab writes this as 0.323056, and the shortest text for it rounds to 0.323057.
-    "smooth": ("apply_coord_taubin_smoothing", {"lambda_": 0.32305647810492155}),
-    # The target length is 1 % of the diagonal, a number with more digits than MeshLab writes.
-    "remesh": ("meshing_isotropic_explicit_remeshing", {"iterations": 1}),
+    "smooth": ("apply_coord_taubin_smoothing", {"lambda_": 0.323056}),
+    "remesh": ("meshing_isotropic_explicit_remeshing", {"iterations": 1, "targetlen": LENGTH}),
     "turn": ("compute_matrix_from_rotation", {"angle": 33.3}),
     "select": ("compute_selection_by_condition_per_face", {"condselect": "fi < 40 && 1 > 0"}),
-    "offset": ("generate_resampled_uniform_mesh", {"cellsize": pymeshlab.PercentageValue(7.7)}),
+    "offset": ("generate_resampled_uniform_mesh", {"cellsize": SIZE}),
 }
 CHAINS = [
     *itertools.product(OURS),
@@ -247,7 +252,7 @@ def test_steps_from_before_the_import_come_first(tmp_path):
     subprocess.run([sys.executable, "-c", SEEN_LATE, str(path)], check=True)
     assert names(path) == ["Sphere", "Taubin Smooth", "Willmore measures", "Select None"]
     smooth = {p.name: p.value for p in read(path)[1].params}
-    assert smooth["lambda"] == np.float32(0.1234567)
+    assert smooth["lambda"] == 0.123457
 
 
 def test_a_loaded_script_takes_the_place_of_the_recorded_one(bumpy, tmp_path):
@@ -463,13 +468,27 @@ def test_native_calls_do_not_take_the_output_of_other_threads():
     assert written.count("x") == int(counted)
 
 
-def test_native_calls_are_recorded_as_before(tmp_path):
-    """Only what has our steps is written by this package."""
+@pytest.mark.parametrize("beside_ours", [False, True])
+def test_native_steps_are_saved_as_pymeshlab_writes_them(beside_ours, tmp_path):
+    """With six digits; ours keep all of theirs."""
     ms = sphere()
     ms.apply_coord_taubin_smoothing(lambda_=0.1234567)
+    if beside_ours:
+        ms.apply_filter(FLIP, foldangle=80.123456789)
     path = tmp_path / "script.mlx"
     ms.save_filter_script(str(path))
-    assert 'value="0.123457"' in path.read_text()
+    smooth, *flips = read(path)
+    assert {p.name: p.value for p in smooth.params}["lambda"] == 0.123457
+    assert [p.value for s in flips for p in s.params if p.name == "foldangle"] == [
+        80.123456789
+    ] * beside_ours
+
+
+def test_a_native_call_is_one_call_of_pymeshlab(bumpy, monkeypatch):
+    """Recording asks for no defaults and saves no script: these take as long as small filters."""
+    for name in ("_filter_parameter_values", "_save_filter_script"):
+        monkeypatch.setattr(native, name, None)
+    bumpy.compute_matrix_from_rotation(angle=33.3)
 
 
 # Broken scripts with our filters

@@ -52,7 +52,7 @@ def command(source: str, target: Path, meshlab: bool, force: bool) -> None:
     if found.faults:
         raise ScriptError(script.name, found.faults)
     steps, checked = found.reading.steps, found.calls
-    unknown = [call for call in checked if call.known.ours or is_step(call.known.name)]
+    unknown = [call for call in checked if call.known.is_willmore or is_step(call.known.name)]
     kept = [call for call in checked if not (meshlab and call in unknown)]
     data = to_xml(in_todays_form(call, steps[call.number - 1]) for call in kept).encode()
     if is_output:

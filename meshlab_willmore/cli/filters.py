@@ -12,7 +12,7 @@ from .columns import in_columns
 from .errors import debug_option, wrong_use
 
 if TYPE_CHECKING:
-    from ..meshset.catalogue import Known, KnownParam
+    from ..meshset.catalogue import FilterInfo, ParamInfo
 
 EXAMPLES = """\b
 Examples:
@@ -44,16 +44,16 @@ def command(name: tuple[str, ...]) -> None:
         close = ", ".join(closest(wanted))
         hint = f"; the closest are {close}" if close else ""
         raise wrong_use(f"there is no filter {wanted!r}{hint}")
-    rows = [(k.name, k.meshlab_name) for k in sorted(found, key=lambda k: not k.ours)]
+    rows = [(k.name, k.meshlab_name) for k in sorted(found, key=lambda k: not k.is_willmore)]
     click.echo(in_columns(rows, left=2))
 
 
-def _matches(known: Known, words: str) -> bool:
+def _matches(known: FilterInfo, words: str) -> bool:
     text = f"{known.name} {known.meshlab_name}".lower()
     return all(word in text for word in words.lower().split())
 
 
-def _explained(known: Known) -> str:
+def _explained(known: FilterInfo) -> str:
     lines = [known.name, f"  in MeshLab: {known.meshlab_name}"]
     lines += _wrapped(known.summary)
     lines += ["", "Parameters: none"] if not known.params else ["", "Parameters:"]
@@ -77,7 +77,7 @@ def _wrapped(text: str, indent: str = "  ") -> list[str]:
     )
 
 
-def _parameter(param: KnownParam, values: dict[str, Any]) -> list[str]:
+def _parameter(param: ParamInfo, values: dict[str, Any]) -> list[str]:
     other = f" (keyword {param.keyword})" if param.keyword != param.name else ""
     line = f"  {param.name}{other}: {param.type}"
     if param.required:
@@ -88,14 +88,14 @@ def _parameter(param: KnownParam, values: dict[str, Any]) -> list[str]:
     return [line, *choices]
 
 
-def _shown(value: Any, param: KnownParam) -> str:
+def _shown(value: Any, param: ParamInfo) -> str:
     if param.choices and isinstance(value, int) and 0 <= value < len(param.choices):
         return repr(param.choices[value])
     plain = value.tolist() if hasattr(value, "tolist") else value
     return f"{plain:g}" if isinstance(plain, float) else repr(plain)
 
 
-def _defaults(known: Known) -> dict[str, Any]:
+def _defaults(known: FilterInfo) -> dict[str, Any]:
     """The defaults on a small mesh; some depend on the mesh, some filters want two."""
     import pymeshlab
 
@@ -111,14 +111,14 @@ def _defaults(known: Known) -> dict[str, Any]:
             return {}
 
 
-def _tooltips(known: Known) -> dict[str, str]:
+def _tooltips(known: FilterInfo) -> dict[str, str]:
     from ..meshset.filters import BY_NAME
 
     filter_ = BY_NAME.get(known.name)
     return {p.name: p.tooltip for p in filter_.parameters} if filter_ else {}
 
 
-def _returned(known: Known) -> Sequence[str]:
+def _returned(known: FilterInfo) -> Sequence[str]:
     from ..meshset.filters import BY_NAME
 
     filter_ = BY_NAME.get(known.name)

@@ -38,7 +38,7 @@ def play(
             log.begin(call, len(calls))
             status.next(call.known.name)
             sys.stdout.flush()
-            if call.known.ours:
+            if call.known.is_willmore:
                 quiet.enter_context(progress.with_details(status))
             else:
                 # No output is begun before the last step has ended.

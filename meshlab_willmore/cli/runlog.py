@@ -17,7 +17,7 @@ from .errors import wrong_use
 from .told import in_line
 
 if TYPE_CHECKING:
-    from ..meshset.catalogue import Known
+    from ..meshset.catalogue import FilterInfo
     from ..meshset.check import Call
     from ..meshset.play import Played
 
@@ -173,11 +173,11 @@ def _appending(path: Path) -> TextIO:
     return path.open("a", encoding="utf-8", errors="backslashreplace")
 
 
-def _given(known: Known, given: Mapping[str, Any]) -> str:
+def _given(known: FilterInfo, given: Mapping[str, Any]) -> str:
     return ", ".join(f"{keyword}={_value(known, keyword, v)}" for keyword, v in given.items())
 
 
-def _value(known: Known, keyword: str, value: Any) -> str:
+def _value(known: FilterInfo, keyword: str, value: Any) -> str:
     from ..mlx.steps import Percentage
 
     param = known.param(keyword)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from .errors import wrong_use
 
 if TYPE_CHECKING:
-    from ..meshset.catalogue import Known, KnownParam
+    from ..meshset.catalogue import FilterInfo, ParamInfo
     from ..mlx.steps import Param, Step, Value
 
 
@@ -100,7 +100,7 @@ def _changed(step: Step, setting: Setting) -> Step:
     return step._replace(params=(*kept,) if replaced else (*kept, new))
 
 
-def _meant(known: Known, name: str) -> list[KnownParam | None]:
+def _meant(known: FilterInfo, name: str) -> list[ParamInfo | None]:
     """The parameters that a name in a script stands for, of today or before."""
     from ..meshset.old_names import params_of
 
@@ -108,7 +108,7 @@ def _meant(known: Known, name: str) -> list[KnownParam | None]:
     return [own] if own else [known.param(old.param or "") for old in params_of(known.name, name)]
 
 
-def _renamed(known: Known, name: str) -> KnownParam | None:
+def _renamed(known: FilterInfo, name: str) -> ParamInfo | None:
     """The parameter that had this name before, with the same values."""
     from ..meshset.old_names import params_of
 
@@ -117,7 +117,7 @@ def _renamed(known: Known, name: str) -> KnownParam | None:
     return known.param(olds[0].param or "") if is_plain else None
 
 
-def _no_such_parameter(known: Known, name: str) -> str:
+def _no_such_parameter(known: FilterInfo, name: str) -> str:
     names = [n for p in known.params for n in (p.name, p.keyword)]
     if not names:
         return f"{known.name} has no parameters"
@@ -127,7 +127,7 @@ def _no_such_parameter(known: Known, name: str) -> str:
     return f"{known.name} has no parameter {name!r}, only {', '.join(p.name for p in known.params)}"
 
 
-def _value(param: KnownParam, setting: Setting) -> Value:
+def _value(param: ParamInfo, setting: Setting) -> Value:
     from ..mlx import rich
 
     if param.choices and setting.value in param.choices:

@@ -23,7 +23,7 @@ from .document import DocumentStep
 from .filter import Filter
 from .filters import BY_NAME, FILTERS
 from .keywords import keyword_of
-from .probe import KnownParam
+from .probe import ParamInfo
 
 _FILE = Path(__file__).with_name("native_filters.json")
 _RENAMED = Path(pymeshlab.__file__).with_name("keys.txt")
@@ -36,16 +36,16 @@ _LEAST_LIKENESS = 0.55
 _LONGEST_NAME = 200
 
 
-class Known(NamedTuple):
+class FilterInfo(NamedTuple):
     """A filter.
 
     Attributes
     ----------
     name, meshlab_name : str
         The name in PyMeshLab, and the one in MeshLab and its scripts (empty where nobody knows it).
-    params : tuple of KnownParam
+    params : tuple of ParamInfo
         In MeshLab's order.
-    ours : bool
+    is_willmore : bool
         Whether it is a filter of this package.
     makes_layers : bool
         Whether it can add meshes to a set.
@@ -59,14 +59,14 @@ class Known(NamedTuple):
 
     name: str
     meshlab_name: str
-    params: tuple[KnownParam, ...]
-    ours: bool
+    params: tuple[ParamInfo, ...]
+    is_willmore: bool
     makes_layers: bool
     summary: str
     needs_mesh: bool = True
     available: bool = True
 
-    def param(self, name: str) -> KnownParam | None:
+    def param(self, name: str) -> ParamInfo | None:
         """The parameter of that name in MeshLab or PyMeshLab."""
         for param in self.params:
             if name in (param.name, param.keyword):
@@ -76,7 +76,7 @@ class Known(NamedTuple):
         return None
 
 
-def find(name: str) -> Known | None:
+def find(name: str) -> FilterInfo | None:
     """The filter of that name, of today or before, in MeshLab or PyMeshLab.
 
     Upper and lower case differ, as they do in MeshLab; blanks at the ends and doubled ones don't. A
@@ -126,13 +126,13 @@ def similar(word: str, names: Iterable[str]) -> list[str]:
     return [by_lower[lower] for lower in found]
 
 
-def everything() -> tuple[Known, ...]:
+def everything() -> tuple[FilterInfo, ...]:
     """All filters that the PyMeshLab at hand has, and ours, by PyMeshLab's name."""
     natives = (_native(name) for name in _there())
     return tuple(sorted((*natives, *map(_ours, FILTERS)), key=lambda known: known.name))
 
 
-def missing() -> tuple[Known, ...]:
+def missing() -> tuple[FilterInfo, ...]:
     """The filters that PyMeshLab had when they were recorded, and the one at hand has not."""
     return tuple(_native(name) for name in sorted(_recorded().keys() - _there()))
 
@@ -202,22 +202,22 @@ def _new_name(name: str) -> str | None:
     return None if name != old and keyword_of(todays) == old else today
 
 
-def _native(name: str) -> Known:
+def _native(name: str) -> FilterInfo:
     return _read(name, name in _there())
 
 
 @functools.cache
-def _read(name: str, there: bool) -> Known:
+def _read(name: str, there: bool) -> FilterInfo:
     """A native filter, as recorded or else as PyMeshLab tells."""
     entry = _recorded().get(name)
     manual = _MANUAL.format(version=version(), name=name)
     if entry is None:
         needs_mesh = not name.startswith(_MAKES_MESHES)
-        return Known(name, "", probe.params(name), False, True, manual, needs_mesh)
+        return FilterInfo(name, "", probe.params(name), False, True, manual, needs_mesh)
     params = tuple(_param(entry, *fields) for fields in entry["params"])
     if there and version() != recorded_version():
         params = probe.brought_up_to_date(name, params)
-    return Known(
+    return FilterInfo(
         name,
         entry["name"],
         params,
@@ -229,23 +229,23 @@ def _read(name: str, there: bool) -> Known:
     )
 
 
-def _param(entry: dict[str, Any], name: str, kind: str, choices: Iterable[str] = ()) -> KnownParam:
+def _param(entry: dict[str, Any], name: str, kind: str, choices: Iterable[str] = ()) -> ParamInfo:
     made = keyword_of(name)
-    return KnownParam(name, made, kind, tuple(choices), made in entry["required"])
+    return ParamInfo(name, made, kind, tuple(choices), made in entry["required"])
 
 
 @functools.cache
-def _of_document(step: DocumentStep) -> Known:
-    return Known(step.name, step.meshlab_names[0], step.params, False, False, step.summary)
+def _of_document(step: DocumentStep) -> FilterInfo:
+    return FilterInfo(step.name, step.meshlab_names[0], step.params, False, False, step.summary)
 
 
 # --- ours --------------------------------------------------------------------------------------
 
 
 @functools.cache
-def _ours(filter_: Filter) -> Known:
+def _ours(filter_: Filter) -> FilterInfo:
     params = tuple(
-        KnownParam(p.name, p.name, "RichEnum" if p.choices else _TYPES[p.type], p.choices, False)
+        ParamInfo(p.name, p.name, "RichEnum" if p.choices else _TYPES[p.type], p.choices, False)
         for p in filter_.parameters
     )
-    return Known(filter_.name, filter_.meshlab_name, params, True, False, filter_.summary)
+    return FilterInfo(filter_.name, filter_.meshlab_name, params, True, False, filter_.summary)

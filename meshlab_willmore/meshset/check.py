@@ -13,10 +13,10 @@ from ..mlx.elements import MOST_FAULTS
 from ..mlx.steps import Fault, Gap, Reading, ScriptError, ScriptWarning, Step, Value
 from ..mlx.words import quoted, shortened
 from . import catalogue, document, old_names
-from .catalogue import Known
+from .catalogue import FilterInfo
 from .filters import BY_NAME
 from .migration import Given, Migration, Remark
-from .probe import KnownParam
+from .probe import ParamInfo
 from .values import mismatch, value_of
 
 # A longer list of parameters would not help.
@@ -31,7 +31,7 @@ class Call(NamedTuple):
     ----------
     number : int
         Its place in the script, from 1.
-    known : Known
+    known : FilterInfo
         The filter.
     given : dict
         The parameters that the step gives, by PyMeshLab's keyword; an enum's value is its index.
@@ -40,7 +40,7 @@ class Call(NamedTuple):
     """
 
     number: int
-    known: Known
+    known: FilterInfo
     given: dict[str, Value]
     details: dict[str, tuple[tuple[str, str], ...]] = {}  # noqa: RUF012 - nobody changes it
 
@@ -182,7 +182,7 @@ class _Checker:
         self._checked.append((number, step, call))
         return [call]
 
-    def _take(self, call: Call, step: Step, item: Given, own: KnownParam) -> None:
+    def _take(self, call: Call, step: Step, item: Given, own: ParamInfo) -> None:
         """Put a parameter's value into a call, or tell why it is none."""
         try:
             value = value_of(item.param, own)
@@ -197,8 +197,8 @@ class _Checker:
             call.details[own.keyword] = item.param.details
 
     def _params(
-        self, number: int, step: Step, known: Known, migration: Migration, gap: Gap
-    ) -> Iterator[tuple[Given, KnownParam]]:
+        self, number: int, step: Step, known: FilterInfo, migration: Migration, gap: Gap
+    ) -> Iterator[tuple[Given, ParamInfo]]:
         """The parameters that the filter has, each once."""
         seen: dict[str, str] = {}
         for item in migration.given:
@@ -222,7 +222,7 @@ class _Checker:
             if own.required and own.keyword not in {*seen, *unread} and not (gap.is_cut or lost):
                 self._add(number, step, "is missing; the filter can't do without it", own.name)
 
-    def _check_broken(self, number: int, step: Step, known: Known, gap: Gap) -> None:
+    def _check_broken(self, number: int, step: Step, known: FilterInfo, gap: Gap) -> None:
         """Tell what else is wrong with parameters whose values can't be read."""
         for param in gap.broken:
             own = known.param(old_names.plain(param.name))
@@ -234,7 +234,7 @@ class _Checker:
 
     # --- warnings ------------------------------------------------------------------------------
 
-    def _warn_of_name(self, number: int, step: Step, known: Known) -> None:
+    def _warn_of_name(self, number: int, step: Step, known: FilterInfo) -> None:
         if step.filter in (known.name, known.meshlab_name):
             if document.is_step(known.name):
                 self._warn(number, step, Remark("", "MeshLab has no such step any more"))
@@ -275,7 +275,7 @@ class _Checker:
 
     # --- faults --------------------------------------------------------------------------------
 
-    def _check_id(self, own: KnownParam, value: Any) -> None:
+    def _check_id(self, own: ParamInfo, value: Any) -> None:
         if own.type != "RichMesh" or self._ids is None or value in self._ids:
             return
         there = ", ".join(map(str, sorted(self._ids))) or "none"
@@ -295,9 +295,9 @@ class _Checker:
         self.faults.append(Fault(text, number, shortened(step.filter), shortened(param)))
 
 
-def _check_range(known: Known, own: KnownParam, value: Value) -> None:
+def _check_range(known: FilterInfo, own: ParamInfo, value: Value) -> None:
     """Raise `ValueError` if a parameter of ours is out of range; MeshLab's tell no ranges."""
-    for parameter in BY_NAME[known.name].parameters if known.ours else ():
+    for parameter in BY_NAME[known.name].parameters if known.is_willmore else ():
         if parameter.name == own.keyword and parameter.check is not None:
             parameter.check(value)
 
@@ -319,7 +319,7 @@ def _absent(name: str) -> str:
     )
 
 
-def _unavailable(known: Known) -> str:
+def _unavailable(known: FilterInfo) -> str:
     recorded, here = catalogue.recorded_version(), catalogue.version()
     reason = "its plugin is not loaded here"
     if recorded != here:
@@ -328,7 +328,7 @@ def _unavailable(known: Known) -> str:
     return f"is a filter of PyMeshLab {recorded}, but {reason}; {cure}"
 
 
-def _no_parameter(known: Known, name: str) -> str:
+def _no_parameter(known: FilterInfo, name: str) -> str:
     keywords, names = [p.keyword for p in known.params], [p.name for p in known.params]
     similar = catalogue.similar(name, names) or catalogue.similar(name, keywords)
     if not known.params:

@@ -14,7 +14,7 @@ from pymeshlab import MeshSet
 
 from . import layers, native, numbering
 from .keywords import keyword_of
-from .probe import KnownParam
+from .probe import ParamInfo
 
 
 class DocumentStep(NamedTuple):
@@ -22,12 +22,12 @@ class DocumentStep(NamedTuple):
 
     name: str
     meshlab_names: tuple[str, ...]
-    params: tuple[KnownParam, ...]
+    params: tuple[ParamInfo, ...]
     summary: str
 
 
-def _param(name: str, type: str) -> KnownParam:
-    return KnownParam(name, keyword_of(name), type, (), False)
+def _param(name: str, type: str) -> ParamInfo:
+    return ParamInfo(name, keyword_of(name), type, (), False)
 
 
 _CURRENT = DocumentStep(

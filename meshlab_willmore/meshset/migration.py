@@ -8,9 +8,9 @@ from typing import NamedTuple
 from ..mlx.steps import Param, Step, Value
 from ..mlx.words import quoted
 from . import old_names
-from .catalogue import Known
+from .catalogue import FilterInfo
 from .old_names import OldParam
-from .probe import KnownParam
+from .probe import ParamInfo
 
 _OPAQUE = 255
 # What MeshLab's old filter for one colour had for a part that is not given.
@@ -49,7 +49,7 @@ class Migration:
         At most how new the script is (see `old_names.age`), by what its parameters show.
     """
 
-    def __init__(self, step: Step, known: Known, given: Mapping[str, Value], by: str) -> None:
+    def __init__(self, step: Step, known: FilterInfo, given: Mapping[str, Value], by: str) -> None:
         self.given: list[Given] = []
         self.remarks: list[Remark] = []
         self.problems: list[Remark] = []
@@ -111,7 +111,7 @@ class Migration:
                     colour[old.change["part"]] = int(value)
             yield Given(parts[0][0], Param(name, "", tuple(colour)))
 
-    def _in_todays_choices(self, own: KnownParam, param: Param) -> Param:
+    def _in_todays_choices(self, own: ParamInfo, param: Param) -> Param:
         """The parameter; an enum whose choices stood in another order gets today's index."""
         if not param.type and isinstance(param.value, str) and param.value not in own.choices:
             return self._by_old_choice(own, param)
@@ -129,7 +129,7 @@ class Migration:
                 return self._renumbered(own, param, old.old[param.value], old)
         return param
 
-    def _by_old_choice(self, own: KnownParam, param: Param) -> Param:
+    def _by_old_choice(self, own: ParamInfo, param: Param) -> Param:
         """The parameter; a choice that is given by the name that it had gets today's index."""
         for old in old_names.choices_of(self._known.name, own.name):
             if param.value in old.old:
@@ -138,7 +138,7 @@ class Migration:
         return param
 
     def _renumbered(
-        self, own: KnownParam, param: Param, name: str, old: old_names.OldChoices
+        self, own: ParamInfo, param: Param, name: str, old: old_names.OldChoices
     ) -> Param:
         assert isinstance(param.value, int)
         index = old.now[param.value]
@@ -153,7 +153,7 @@ class Migration:
         kept = tuple(pair for pair in param.details if not pair[0].startswith("enum_"))
         return Param(param.name, "", index, kept)
 
-    def _in_todays_symbols(self, own: KnownParam, param: Param) -> Param:
+    def _in_todays_symbols(self, own: ParamInfo, param: Param) -> Param:
         value, age = old_names.in_todays_symbols(self._known.name, own.name, param.value)
         if age is None:
             return param

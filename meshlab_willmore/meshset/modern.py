@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from ..mlx.steps import Param, ScriptError, Step
 from .check import Call, resolve
-from .probe import KnownParam
+from .probe import ParamInfo
 
 # Attributes of the time of meshlabserver, without a meaning today.
 _OLD = frozenset({"isxmlparam"})
@@ -38,7 +38,7 @@ def in_todays_form(call: Call, step: Step) -> Step:
 
 
 def _with_choices(
-    known: KnownParam, details: tuple[tuple[str, str], ...]
+    known: ParamInfo, details: tuple[tuple[str, str], ...]
 ) -> tuple[tuple[str, str], ...]:
     """The details, with the names of an enum's choices as they are today."""
     if not known.choices:

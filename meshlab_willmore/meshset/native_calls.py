@@ -15,7 +15,7 @@ import pymeshlab
 from pymeshlab import MeshSet
 
 from . import catalogue, layers, native, numbering, probe
-from .catalogue import Known
+from .catalogue import FilterInfo
 
 _DELETE_HIDDEN = "delete_non_visible_meshes"
 _MERGE = "generate_by_merging_visible_meshes"
@@ -84,7 +84,7 @@ def logical_ids(ms: MeshSet, name: object, values: dict[str, Any]) -> dict[str, 
     return {key: numbering.logical_id(ms, values[key]) for key in keywords}
 
 
-def physical(ms: MeshSet, known: Known, given: dict[str, Any]) -> dict[str, Any]:
+def physical(ms: MeshSet, known: FilterInfo, given: dict[str, Any]) -> dict[str, Any]:
     """The keywords with physical ids of layers in the place of logical ones.
 
     What is an id, the filter's own types say, not the keyword's name.
@@ -101,17 +101,17 @@ def physical(ms: MeshSet, known: Known, given: dict[str, Any]) -> dict[str, Any]
     return {**given, **ids}
 
 
-def _known(name: object) -> Known | None:
+def _known(name: object) -> FilterInfo | None:
     known = catalogue.find(name) if isinstance(name, str) else None
-    return known if known and known.name == name and not known.ours else None
+    return known if known and known.name == name and not known.is_willmore else None
 
 
-def _id_keywords(known: Known, given: dict[str, Any]) -> list[str]:
+def _id_keywords(known: FilterInfo, given: dict[str, Any]) -> list[str]:
     return [p.keyword for p in known.params if p.type == "RichMesh" and p.keyword in given]
 
 
 def _partners(
-    known: Known, given: dict[str, Any], there: Sequence[int], current: int | None
+    known: FilterInfo, given: dict[str, Any], there: Sequence[int], current: int | None
 ) -> dict[str, int]:
     """The layers that a filter takes by itself, by keyword.
 

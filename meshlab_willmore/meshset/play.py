@@ -94,7 +94,7 @@ def _play_one(ms: MeshSet, call: Call, source: str) -> Played:
         layers.sweep(ms)
         if document.is_step(name):
             returned = document.play(ms, name, given)
-        elif call.known.ours:
+        elif call.known.is_willmore:
             returned = apply(ms, BY_NAME[name], values_of(ms, BY_NAME[name], given))
         else:
             if call.known.needs_mesh and native.ids(ms):
@@ -103,7 +103,7 @@ def _play_one(ms: MeshSet, call: Call, source: str) -> Played:
             with native_calls.prepared(ms, name, given) as completed:
                 returned = native.apply(ms, name, **completed)
     except Exception as error:
-        if not call.known.ours:
+        if not call.known.is_willmore:
             native.forget_failures()
         raise pymeshlab.PyMeshLabException(
             f"{source}, step {call.number} ({name}): {_reason(error, call)}"
@@ -117,7 +117,7 @@ def _reason(error: Exception, call: Call) -> str:
     text = str(error)
     for start in (f"Failed to apply filter: {name}", f"Failed to apply filter:  '{name}."):
         text = text.removeprefix(start)
-    if not call.known.ours:
+    if not call.known.is_willmore:
         text = plain(text, *(value for value in given if isinstance(value, str)))
     return text.strip().removeprefix("Details: ") or type(error).__name__
 

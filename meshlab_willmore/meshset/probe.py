@@ -26,7 +26,7 @@ _ANOTHER_ID = 3
 _REFUSALS = (pymeshlab.PyMeshLabException, pymeshlab.InvalidEnumException, RuntimeError)
 
 
-class KnownParam(NamedTuple):
+class ParamInfo(NamedTuple):
     """A parameter of a filter.
 
     Attributes
@@ -51,12 +51,12 @@ class KnownParam(NamedTuple):
     guessed: bool = False
 
 
-def params(name: str) -> tuple[KnownParam, ...]:
+def params(name: str) -> tuple[ParamInfo, ...]:
     """The parameters of a native filter, as far as PyMeshLab tells; MeshLab's names it does not."""
     return tuple(_param(name, key, value) for key, value in _values(name).items())
 
 
-def brought_up_to_date(name: str, recorded: tuple[KnownParam, ...]) -> tuple[KnownParam, ...]:
+def brought_up_to_date(name: str, recorded: tuple[ParamInfo, ...]) -> tuple[ParamInfo, ...]:
     """The parameters that a filter has now, of one that was recorded with another PyMeshLab."""
     values = _values(name)
     if not values:
@@ -103,7 +103,7 @@ def _values(name: str) -> dict[str, Any]:
         return {}
 
 
-def _param(name: str, key: str, value: Any) -> KnownParam:
+def _param(name: str, key: str, value: Any) -> ParamInfo:
     choices: tuple[str, ...] = ()
     kind = _kind(value)
     # Enums look like numbers, and percentages like floats; what they refuse gives them away.
@@ -115,7 +115,7 @@ def _param(name: str, key: str, value: Any) -> KnownParam:
             kind, choices = "RichEnum", _choices(str(refusal))
     elif kind == "RichFloat" and _refusal(name, **{key: value}):
         kind = "RichAbsPerc"
-    return KnownParam(key, key, kind, choices, required=False, guessed=True)
+    return ParamInfo(key, key, kind, choices, required=False, guessed=True)
 
 
 def _is_layer(name: str, key: str, value: Any) -> bool:

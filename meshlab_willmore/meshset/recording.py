@@ -91,7 +91,7 @@ def our_script(path: str) -> tuple[Step, ...] | None:
             raise
         return None
     found = (catalogue.find(step.filter) for step in steps)
-    if is_pipe or any(known and known.ours for known in found) or _is_ours_to_run(steps):
+    if is_pipe or any(known and known.is_willmore for known in found) or _is_ours_to_run(steps):
         return modernised(steps)
     return None
 

@@ -7,7 +7,7 @@ from typing import Any
 from ..mlx import rich
 from ..mlx.steps import Param, Percentage, Value
 from ..mlx.words import quoted
-from .probe import KnownParam
+from .probe import ParamInfo
 
 # MeshLab keeps values of one kind for types that it writes differently; between two kinds it reads
 # zero, or an empty text.
@@ -32,7 +32,7 @@ _KINDS = {
 _MISREAD = {"RichBool": "false", "RichString": "''", "RichOpenFile": "''", "RichSaveFile": "''"}
 
 
-def value_of(param: Param, own: KnownParam) -> Value:
+def value_of(param: Param, own: ParamInfo) -> Value:
     """The value of a step's parameter, as one of the filter's own type.
 
     Parameters
@@ -40,7 +40,7 @@ def value_of(param: Param, own: KnownParam) -> Value:
     param : Param
         As in the script. Without a type, a text is read as the filter's own type demands; an enum
         may be given by its name.
-    own : KnownParam
+    own : ParamInfo
         What the filter has.
 
     Returns
@@ -66,7 +66,7 @@ def value_of(param: Param, own: KnownParam) -> Value:
     return value
 
 
-def _needed(param: Param, own: KnownParam) -> tuple[tuple[str, str], ...]:
+def _needed(param: Param, own: ParamInfo) -> tuple[tuple[str, str], ...]:
     """A range and the like, which nobody has looked at yet where the type is another, or none."""
     if param.type == own.type or own.choices:
         return ()
@@ -74,7 +74,7 @@ def _needed(param: Param, own: KnownParam) -> tuple[tuple[str, str], ...]:
     return tuple(pair for pair in param.details if pair[0] in needs)
 
 
-def _typed(param: Param, own: KnownParam) -> Value:
+def _typed(param: Param, own: ParamInfo) -> Value:
     """The value, read if it is a text without a type."""
     if own.choices and param.type in ("", own.type) and isinstance(param.value, str):
         return _choice(own, param.value)
@@ -87,7 +87,7 @@ def _typed(param: Param, own: KnownParam) -> Value:
     return param.value
 
 
-def mismatch(param: Param, own: KnownParam) -> str | None:
+def mismatch(param: Param, own: ParamInfo) -> str | None:
     """What to say if a parameter's type is one that PyMeshLab misreads for the filter's own."""
     kind = _KINDS.get(param.type)
     if kind is None or kind == _KINDS[own.type]:
@@ -98,7 +98,7 @@ def mismatch(param: Param, own: KnownParam) -> str | None:
     )
 
 
-def _choice(own: KnownParam, text: str) -> int:
+def _choice(own: ParamInfo, text: str) -> int:
     """The index that a text names, or is."""
     if text in own.choices:
         return own.choices.index(text)
@@ -108,7 +108,7 @@ def _choice(own: KnownParam, text: str) -> int:
         raise ValueError(f"there is no choice {quoted(text)}; {_listed(own.choices)}") from None
 
 
-def _check_choice(param: Param, own: KnownParam, index: Any) -> None:
+def _check_choice(param: Param, own: ParamInfo, index: Any) -> None:
     if not 0 <= index < len(own.choices):
         raise ValueError(f"there is no choice {index}; {_listed(own.choices)}")
     meant = dict(param.details).get(f"enum_val{index}", "")

@@ -29,7 +29,7 @@ def test_there_is_a_row_for_each_search_and_energy_of_the_filter():
 @pytest.mark.parametrize("peer", contenders.PEERS, ids=lambda peer: peer.name)
 def test_peers_are_filters_of_meshlab_with_parameters_that_they_have(peer):
     known = find(peer.filter)
-    assert not known.ours
+    assert not known.is_willmore
     for name, value in peer.given.items():
         param = known.param(name)
         assert param is not None

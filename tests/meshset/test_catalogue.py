@@ -77,7 +77,7 @@ def test_every_native_filter_is_recorded():
 @recorded_here
 def test_keywords_and_types_are_those_that_pymeshlab_prints(capfd):
     for known in everything():
-        if not known.ours:
+        if not known.is_willmore:
             pymeshlab.print_filter_parameter_list(known.name)
     native._flush_c_streams()
     printed = {}
@@ -90,7 +90,7 @@ def test_keywords_and_types_are_those_that_pymeshlab_prints(capfd):
     assert printed == {
         known.name: [(p.keyword, PYTHON_TYPES[p.type]) for p in known.params]
         for known in everything()
-        if not known.ours
+        if not known.is_willmore
     }
 
 
@@ -266,7 +266,7 @@ def test_ours_are_as_their_table_says():
     for filter_ in FILTERS:
         known = find(filter_.meshlab_name)
         assert known.name == filter_.name
-        assert known.ours
+        assert known.is_willmore
         assert known.summary == filter_.summary
         assert [p.keyword for p in known.params] == [p.name for p in filter_.parameters]
     types = {p.name: p.type for p in find(FLIP).params}

@@ -19,7 +19,7 @@ import pymeshlab
 
 from ..machine import temporary_folder
 from . import layers, native, numbering, ply
-from .sides import carry_side_bits
+from .edge_flags import carry_side_bits
 from .snapshot import (
     ATTRIBUTE_METHODS,
     MESH_FILE,

@@ -9,7 +9,7 @@ from typing import Any
 import pymeshlab
 
 from ..options import ENERGY, NO_LIMIT, OPTIONS, SEARCH, VIRTUALPOINT, Option
-from . import exchange, interrupts, native, numbering, sides
+from . import edge_flags, exchange, interrupts, native, numbering
 from .filter import Filter, current_surface
 from .parameters import Parameter
 from .snapshot import take
@@ -92,8 +92,8 @@ def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any]
             foldangle=values["foldangle"],
             featuredeg=values["featuredeg"],
             selected_faces=snapshot.selected_faces if values["selection"] else None,
-            locked_edges=sides.fixed_edges(snapshot),
-            wedge_uv=sides.texture_coordinates(snapshot),
+            locked_edges=edge_flags.fixed_edges(snapshot),
+            wedge_uv=snapshot.wedge_uv,
             maxflips=maxflips,
         )
     if result.flips:

@@ -85,6 +85,20 @@ class Snapshot(NamedTuple):
         return np.ascontiguousarray(self.ply.faces["vertex_indices"])
 
     @property
+    def wedge_uv(self) -> np.ndarray | None:
+        """Texture coordinates of the corners of all faces, (m, 3, 2 k) for k mappings, or None.
+
+        Faces can have coordinates for each corner, and vertices can have some: both are mappings.
+        """
+        mappings = []
+        if "texcoord" in (self.ply.faces.dtype.names or ()):
+            mappings.append(self.ply.faces["texcoord"].reshape(-1, 3, 2))
+        if "texture_u" in (self.ply.vertices.dtype.names or ()):
+            at_vertices = [self.ply.vertices[name] for name in ("texture_u", "texture_v")]
+            mappings.append(np.column_stack(at_vertices)[self.faces])
+        return np.concatenate(mappings, axis=2) if mappings else None
+
+    @property
     def is_without_pixels(self) -> bool:
         """Whether there are textures, and none has an image of any size."""
         return bool(self.ply.textures) and not any(map(has_pixels, self.images.values()))

@@ -8,7 +8,7 @@ import pymeshlab
 import pytest
 
 from meshlab_willmore import optimize_flips
-from meshlab_willmore.meshset import exchange, ply, sides
+from meshlab_willmore.meshset import edge_flags, exchange, ply
 from meshlab_willmore.meshset.snapshot import take
 from tests import meshes
 from tests.meshset.conftest import FLIP, SAMPLES, set_of
@@ -169,7 +169,7 @@ def test_polygons_of_a_real_mesh_survive():
     assert polygons_of(ms) == before
 
 
-@pytest.mark.parametrize("first_bit", sides._SIDE_BITS)
+@pytest.mark.parametrize("first_bit", edge_flags._SIDE_BITS)
 def test_side_bits_move_with_their_sides(first_bit):
     """A flip beside a marked side turns its face in the slot: the mark has to stay on the side."""
     ms = set_of(*meshes.patch(60))
@@ -181,7 +181,7 @@ def test_side_bits_move_with_their_sides(first_bit):
         records["flags"][side // 3] |= 1 << (first_bit + side % 3)
     new = optimize_flips(snapshot.vertices, snapshot.faces)
     assert new.flips > 10
-    flags = sides.carry_side_bits(snapshot.ply, new.faces)
+    flags = edge_flags.carry_side_bits(snapshot.ply, new.faces)
     before = sides_of(snapshot.faces, records["flags"], first_bit)
     after = sides_of(new.faces, flags, first_bit)
     kept = before.keys() & after.keys()
@@ -191,7 +191,7 @@ def test_side_bits_move_with_their_sides(first_bit):
 
 
 def sides_of(faces, flags, first_bit):
-    bits = sides._side_bits(flags, first_bit)
+    bits = edge_flags._side_bits(flags, first_bit)
     heads = np.roll(faces, -1, axis=1)
     both = zip(faces.ravel().tolist(), heads.ravel().tolist(), strict=True)
     return dict(zip(both, bits.ravel().tolist(), strict=True))

@@ -1,6 +1,6 @@
-"""What tells which sides of faces stay: bits in the flags, texture images and coordinates.
+"""Edge flags: the bits in MeshLab's face flags, and which edges they lock.
 
-A side is the half-edge from a corner to the next one; its edge may have a mark on either side.
+A side is the half-edge from a corner to the next one; its edge may have a flag on either side.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ _ALL_SIDES = 0b111
 
 
 def fixed_edges(snapshot: Snapshot) -> np.ndarray:
-    """Edges that no flip may take: those of polygons, inner and outer ones, and between textures.
+    """Edges that no flip may take: inner and outer ones of polygons, and seams between textures.
 
     Returns
     -------
@@ -39,22 +39,6 @@ def fixed_edges(snapshot: Snapshot) -> np.ndarray:
     return np.column_stack((tails[fixed], heads[fixed])).astype(np.int32)
 
 
-def texture_coordinates(snapshot: Snapshot) -> np.ndarray | None:
-    """Texture coordinates of the corners of all faces, (m, 3, 2), or (m, 3, 4) with two mappings.
-
-    Faces may have coordinates of their own, for each corner, and vertices may: both are mappings.
-    None: there is neither.
-    """
-    mappings = []
-    if "texcoord" in (snapshot.ply.faces.dtype.names or ()):
-        mappings.append(snapshot.ply.faces["texcoord"].reshape(-1, 3, 2))
-    vertices = snapshot.ply.vertices
-    if "texture_u" in (vertices.dtype.names or ()):
-        at_vertices = np.column_stack((vertices["texture_u"], vertices["texture_v"]))
-        mappings.append(at_vertices[snapshot.faces])
-    return np.concatenate(mappings, axis=2) if mappings else None
-
-
 def _mask(*first_bits: int) -> np.int32:
     """The bits of all sides, of groups that start at `first_bits`."""
     return np.int32(sum(_ALL_SIDES << bit for bit in first_bits))
@@ -66,7 +50,7 @@ def _side_bits(flags: np.ndarray, first_bit: int) -> np.ndarray:
 
 
 def _between_textures(snapshot: Snapshot) -> np.ndarray:
-    """(m, 3) bool: the other face has another texture. Sides without one partner: False."""
+    """Whether the face across each side has another texture, (m, 3); False without such a face."""
     tails = snapshot.faces.astype(np.int64)
     heads = np.roll(tails, -1, axis=1)
     n = len(snapshot.ply.vertices)
@@ -76,7 +60,7 @@ def _between_textures(snapshot: Snapshot) -> np.ndarray:
 
 
 def _partners(keys: np.ndarray, wanted: np.ndarray) -> np.ndarray:
-    """For each entry of `wanted` an index into `keys` where it stands, -1 if nowhere."""
+    """For each entry of `wanted` its index in `keys`, -1 if it is not there."""
     order = np.argsort(keys, kind="stable")
     place = np.searchsorted(keys, wanted, sorter=order)
     candidate = order[np.minimum(place, len(keys) - 1)]
@@ -84,7 +68,7 @@ def _partners(keys: np.ndarray, wanted: np.ndarray) -> np.ndarray:
 
 
 def carry_side_bits(old: ply.PlyMesh, faces: np.ndarray) -> np.ndarray:
-    """The old flags, with the bits of the sides moved to where each side is now."""
+    """The flags of `old`, with the bits of each side moved to its place in `faces`."""
     flags = old.faces["flags"].copy()
     mask = _mask(*_SIDE_BITS)
     if not (flags & mask).any():

@@ -2,7 +2,7 @@
 
 MeshLab and its scripts use other names than PyMeshLab, and PyMeshLab can't tell them: they stand in
 `native_filters.json`, recorded with one version of it. What another version has, or a plugin that
-was loaded later, is asked from PyMeshLab itself (see `probe`).
+was loaded later, is asked from PyMeshLab itself (see `parameter_info`).
 """
 
 from __future__ import annotations
@@ -18,12 +18,11 @@ from typing import Any, NamedTuple
 
 import pymeshlab
 
-from . import document, old_names, probe
+from . import document, old_names, parameter_info
 from .document import DocumentStep
 from .filter import Filter
 from .filters import BY_NAME, FILTERS
-from .keywords import keyword_of
-from .probe import ParamInfo
+from .parameter_info import ParamInfo, keyword_of
 
 _FILE = Path(__file__).with_name("native_filters.json")
 _RENAMED = Path(pymeshlab.__file__).with_name("keys.txt")
@@ -213,10 +212,10 @@ def _read(name: str, there: bool) -> FilterInfo:
     manual = _MANUAL.format(version=version(), name=name)
     if entry is None:
         needs_mesh = not name.startswith(_MAKES_MESHES)
-        return FilterInfo(name, "", probe.params(name), False, True, manual, needs_mesh)
+        return FilterInfo(name, "", parameter_info.params(name), False, True, manual, needs_mesh)
     params = tuple(_param(entry, *fields) for fields in entry["params"])
     if there and version() != recorded_version():
-        params = probe.brought_up_to_date(name, params)
+        params = parameter_info.updated(name, params)
     return FilterInfo(
         name,
         entry["name"],

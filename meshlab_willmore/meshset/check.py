@@ -16,7 +16,7 @@ from . import catalogue, document, old_names
 from .catalogue import FilterInfo
 from .filters import BY_NAME
 from .migration import Given, Migration, Remark
-from .probe import ParamInfo
+from .parameter_info import ParamInfo
 from .values import mismatch, value_of
 
 # A longer list of parameters would not help.

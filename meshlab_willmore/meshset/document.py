@@ -13,8 +13,7 @@ import pymeshlab
 from pymeshlab import MeshSet
 
 from . import layers, native, numbering
-from .keywords import keyword_of
-from .probe import ParamInfo
+from .parameter_info import ParamInfo, keyword_of
 
 
 class DocumentStep(NamedTuple):

@@ -10,7 +10,7 @@ from ..mlx.words import quoted
 from . import old_names
 from .catalogue import FilterInfo
 from .old_names import OldParam
-from .probe import ParamInfo
+from .parameter_info import ParamInfo
 
 _OPAQUE = 255
 # What MeshLab's old filter for one colour had for a part that is not given.

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from ..mlx.steps import Param, ScriptError, Step
 from .check import Call, resolve
-from .probe import ParamInfo
+from .parameter_info import ParamInfo
 
 # Attributes of the time of meshlabserver, without a meaning today.
 _OLD = frozenset({"isxmlparam"})

@@ -14,7 +14,7 @@ from typing import Any
 import pymeshlab
 from pymeshlab import MeshSet
 
-from . import catalogue, layers, native, numbering, probe
+from . import catalogue, layers, native, numbering, parameter_info
 from .catalogue import FilterInfo
 
 _DELETE_HIDDEN = "delete_non_visible_meshes"
@@ -120,7 +120,7 @@ def _partners(
     missing = [p.keyword for p in known.params if p.type == "RichMesh" and p.keyword not in given]
     if not missing or current not in there:
         return {}
-    places = probe.partners(known.name, missing, len(there), there.index(current))
+    places = parameter_info.default_places(known.name, missing, len(there), there.index(current))
     # Two filters take the second one also where there is one only.
     return {key: there[min(place, len(there) - 1)] for key, place in places.items()}
 

@@ -30,7 +30,7 @@ from typing import Any, NamedTuple
 
 from ..mlx import rich
 from ..mlx.steps import Param, Percentage, Step, Value
-from .keywords import keyword_of
+from .parameter_info import keyword_of
 
 _FILE = Path(__file__).with_name("old_names.json")
 # MeshLab's parser of formulas had words for these until the end of 2015.

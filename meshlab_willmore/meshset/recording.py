@@ -20,8 +20,8 @@ from . import catalogue, native
 from .check import faults_of, is_todays
 from .filter import Filter
 from .filters import FILTERS
-from .keywords import keyword_of
 from .modern import modernised
+from .parameter_info import keyword_of
 
 # The logical ids of a native step, by the keyword of the parameter.
 Ids = dict[str, int]

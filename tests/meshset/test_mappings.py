@@ -4,7 +4,7 @@ import numpy as np
 import pymeshlab
 import pytest
 
-from meshlab_willmore.meshset.sides import fixed_edges
+from meshlab_willmore.meshset.edge_flags import fixed_edges
 from meshlab_willmore.meshset.snapshot import take
 from tests import meshes
 from tests.meshset.conftest import FLIP, SAMPLES, set_of

@@ -4,7 +4,7 @@ import pytest
 
 from meshlab_willmore.meshset import catalogue, old_names
 from meshlab_willmore.meshset.check import examine, resolve
-from meshlab_willmore.meshset.keywords import keyword_of
+from meshlab_willmore.meshset.parameter_info import keyword_of
 from meshlab_willmore.mlx.steps import Param, Reading, Step
 
 pytestmark = pytest.mark.skipif(

@@ -1,12 +1,14 @@
-"""What PyMeshLab itself can tell of a filter: keywords, kinds and choices of its parameters.
+"""What is known of a filter's parameter, and what PyMeshLab itself tells of it.
 
-It takes a mesh to ask, and some filters crash where there is none: one is made here, and nobody
-else sees it.
+PyMeshLab tells keywords, defaults and, by what it refuses, types and choices. It needs a mesh for
+that, and some filters crash without one, so it is asked about a small mesh in a set of its own.
 """
 
 from __future__ import annotations
 
 import functools
+import keyword
+import re
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
@@ -20,10 +22,22 @@ from . import native
 _NO_VALUE = "no such value"
 _UNSUPPORTED = "still_unsupported"
 _MATRIX_SIZE = 16
-_ENOUGH = 3
-_ANOTHER_ID = 3
+# By themselves filters take the current mesh or one of the first two.
+_MOST_MESHES = 3
+_LATER_ID = 3
 # PyMeshLab's exceptions have no common base.
 _REFUSALS = (pymeshlab.PyMeshLabException, pymeshlab.InvalidEnumException, RuntimeError)
+
+
+def python_name(name: str) -> str:
+    """The Python name that PyMeshLab makes of a name of MeshLab's."""
+    return re.sub(r"[().,'\":+]", "", re.sub(r"[ /-]", "_", name.lower()))
+
+
+def keyword_of(name: str) -> str:
+    """The keyword that PyMeshLab makes of a name of MeshLab's."""
+    made = python_name(name)
+    return made + "_" if keyword.iskeyword(made) else made
 
 
 class ParamInfo(NamedTuple):
@@ -52,21 +66,21 @@ class ParamInfo(NamedTuple):
 
 
 def params(name: str) -> tuple[ParamInfo, ...]:
-    """The parameters of a native filter, as far as PyMeshLab tells; MeshLab's names it does not."""
-    return tuple(_param(name, key, value) for key, value in _values(name).items())
+    """The parameters of a native filter as PyMeshLab tells them, without MeshLab's names."""
+    return tuple(_param(name, key, value) for key, value in _defaults(name, 1, 0).items())
 
 
-def brought_up_to_date(name: str, recorded: tuple[ParamInfo, ...]) -> tuple[ParamInfo, ...]:
-    """The parameters that a filter has now, of one that was recorded with another PyMeshLab."""
-    values = _values(name)
+def updated(name: str, recorded: tuple[ParamInfo, ...]) -> tuple[ParamInfo, ...]:
+    """The parameters that a filter has now, if it was recorded with another PyMeshLab."""
+    values = _defaults(name, 1, 0)
     if not values:
         return recorded
     by_keyword = {param.keyword: param for param in recorded}
     return tuple(by_keyword.get(key) or _param(name, key, value) for key, value in values.items())
 
 
-def partners(name: str, keywords: Iterable[str], count: int, current: int) -> dict[str, int]:
-    """The places, in a set of `count` meshes, of those that a native filter takes by itself.
+def default_places(name: str, keywords: Iterable[str], count: int, current: int) -> dict[str, int]:
+    """The places of the meshes that a native filter takes by default, by keyword.
 
     Parameters
     ----------
@@ -76,38 +90,33 @@ def partners(name: str, keywords: Iterable[str], count: int, current: int) -> di
     count, current : int
         How many meshes there are, and the place of the current one, from 0.
     """
-    # It is the current one, or one of the first two; so the third stands for all after it.
-    place = min(current, _ENOUGH - 1)
-    values = _defaults_among(name, min(count, _ENOUGH), place)
+    place = min(current, _MOST_MESHES - 1)
+    values = _defaults(name, min(count, _MOST_MESHES), place)
     found = {key: values[key] for key in keywords if key in values}
     return {key: current if value == place else value for key, value in found.items()}
 
 
 @functools.cache
-def _defaults_among(name: str, count: int, current: int) -> dict[str, Any]:
+def _defaults(name: str, count: int, current: int) -> dict[str, Any]:
+    """The filter's defaults in a set of `count` meshes; empty if PyMeshLab can't tell them."""
     ms = _triangles(count)
     native.make_current(ms, current)
     try:
-        with native.muted():
-            return native.defaults(ms, name)
+        return _ask(ms, name)
     except _REFUSALS:
         return {}
 
 
-def _values(name: str) -> dict[str, Any]:
-    """The filter's defaults; empty if PyMeshLab can't tell them either."""
-    try:
-        with native.muted():
-            return native.defaults(_asked(), name)
-    except _REFUSALS:
-        return {}
+def _ask(ms: MeshSet, name: str, **given: Any) -> dict[str, Any]:
+    with native.muted():
+        return native.defaults(ms, name, **given)
 
 
 def _param(name: str, key: str, value: Any) -> ParamInfo:
     choices: tuple[str, ...] = ()
-    kind = _kind(value)
-    # Enums look like numbers, and percentages like floats; what they refuse gives them away.
-    if kind == "RichInt" and _is_layer(name, key, value):
+    kind = _type(value)
+    # Enums and ids of meshes look like numbers, and percentages like floats.
+    if kind == "RichInt" and _is_mesh_id(name, key, value):
         kind = "RichMesh"
     elif kind == "RichInt":
         refusal = _refusal(name, **{key: _NO_VALUE})
@@ -118,14 +127,12 @@ def _param(name: str, key: str, value: Any) -> ParamInfo:
     return ParamInfo(key, key, kind, choices, required=False, guessed=True)
 
 
-def _is_layer(name: str, key: str, value: Any) -> bool:
-    """Whether a default is the id of the mesh, in two sets where that has different ids."""
-    with native.muted():
-        later = native.defaults(_asked_later(), name)
-    return (value, later.get(key)) == tuple(native.ids(s)[0] for s in (_asked(), _asked_later()))
+def _is_mesh_id(name: str, key: str, value: Any) -> bool:
+    """Whether a default is the id of the only mesh, in two sets where that has different ids."""
+    return (value, _ask(_triangle_with_later_id(), name).get(key)) == (0, _LATER_ID)
 
 
-def _kind(value: Any) -> str:
+def _type(value: Any) -> str:
     if isinstance(value, bool):
         return "RichBool"
     if isinstance(value, int):
@@ -141,8 +148,7 @@ def _kind(value: Any) -> str:
 
 def _refusal(name: str, **given: Any) -> Exception | None:
     try:
-        with native.muted():
-            native.defaults(_asked(), name, **given)
+        _ask(_triangles(1), name, **given)
     except _REFUSALS as error:
         return error
     return None
@@ -155,22 +161,21 @@ def _choices(refusal: str) -> tuple[str, ...]:
 
 
 @functools.cache
-def _asked() -> MeshSet:
-    return _triangles(1)
-
-
-@functools.cache
-def _asked_later() -> MeshSet:
-    """The same as `_asked`, but the id of its mesh is another."""
-    ms = _triangles(_ANOTHER_ID + 1)
-    for mesh_id in range(_ANOTHER_ID):
+def _triangle_with_later_id() -> MeshSet:
+    ms = _new_triangles(_LATER_ID + 1)
+    for mesh_id in range(_LATER_ID):
         native.make_current(ms, mesh_id)
         native.apply(ms, "delete_current_mesh")
     return ms
 
 
+@functools.cache
 def _triangles(count: int) -> MeshSet:
-    """A set of triangles that have what some filters need to be asked."""
+    return _new_triangles(count)
+
+
+def _new_triangles(count: int) -> MeshSet:
+    """A set of triangles with scalars, which some filters need to tell their defaults."""
     ms = MeshSet()
     corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
     values = {"v_scalar_array": np.arange(3.0), "f_scalar_array": np.arange(1.0)}

@@ -33,7 +33,7 @@ Examples:
 def main() -> None:
     """Willmore edge flips for triangle meshes, and MeshLab's filter scripts.
 
-    Exit codes: 0 done, 1 failed while running, 2 wrong use.
+    Exit codes: 0 success, 1 failure while running, 2 wrong usage.
     """
 
 

@@ -14,11 +14,13 @@ import click
 
 from .. import quick_start
 from ..options import ALLOWLOSS, ENERGY, SEARCH, SELECTION
-from . import progress, references, trials
-from .columns import in_columns
-from .errors import debug_option, wrong_use
-from .flip import check_options, filter_options, only
-from .inputs import expand
+from . import compare_row, progress
+from .compare_row import Comparison, Outcome, check_reference
+from .errors import WrongUse, debug_option, is_debug
+from .flip import check_options, filter_options
+from .options import json_option
+from .paths import only_input
+from .text import for_json, table
 
 if TYPE_CHECKING:
     from ..compare.contenders import Contender
@@ -97,9 +99,9 @@ def _shared_options() -> list[click.Option]:
 
 
 def _time_limit(_: click.Context, __: click.Parameter, seconds: float) -> float:
-    """The seconds, unless they are none that a timer takes."""
+    """The seconds, unless they are too many for a timer."""
     if not seconds <= threading.TIMEOUT_MAX:
-        raise wrong_use(f"--timeout: {seconds:g} is no number of seconds that can be waited")
+        raise WrongUse(f"--timeout: {seconds:g} is no number of seconds that can be waited")
     return seconds
 
 
@@ -113,10 +115,10 @@ def _time_limit(_: click.Context, __: click.Parameter, seconds: float) -> float:
 @click.option(
     "--reference",
     metavar="SURFACE",
-    help="What the mesh should be like: a file with a mesh, sphere, sphere:RADIUS or "
+    help="The surface that the mesh approximates: a mesh file, sphere, sphere:RADIUS or "
     "torus:RING,TUBE (radii; around the origin, the torus' axis is z). Adds the mean angle between "
     "the normals of faces and those of the reference nearest to their centroids, and the root mean "
-    "square distance. Both surfaces must look to the same side.",
+    "square distance. Both surfaces must have the same orientation.",
 )
 @click.option(
     "--timeout",
@@ -125,12 +127,12 @@ def _time_limit(_: click.Context, __: click.Parameter, seconds: float) -> float:
     default=TIMEOUT,
     show_default=True,
     metavar="SECONDS",
-    help="The longest that a filter may run.",
+    help="The longest time that a filter may take.",
 )
 @click.option(
     "--peers/--no-peers", default=True, show_default=True, help="Rows of MeshLab's own filters."
 )
-@click.option("--json", "as_json", is_flag=True, help="Print a JSON list for machines.")
+@json_option
 @debug_option
 def command(
     source: str,
@@ -142,23 +144,23 @@ def command(
 ) -> None:
     """Flip the edges of IN with all energies and searches, and with MeshLab's own filters.
 
-    A table tells what each made of the mesh. Nothing is saved. Each row runs in a process of its
-    own, one after another: a filter that takes too long is killed, one that crashes harms no other.
-    A row that fails is named on the standard error, and the exit code is 1 in the end.
+    The result is a table; nothing is saved. Each row runs in a process of its own, one after
+    another: a filter that takes too long is stopped, one that crashes does not stop the others. If
+    a row fails, its error is printed, and the exit code is 1.
     """
-    path = only(expand([source]), source, "compare takes one")
+    path = only_input(source, "compare takes one")
     if reference is not None:
-        references.check(reference)
+        check_reference(reference)
     rows = _contenders(given, peers)
-    # Each row would fail at variables that are wrong, and could not say why.
+    # With wrong variables each row would fail, without a clear reason.
     quick_start.import_numba()
-    task = trials.Task(str(path), reference, timeout)
-    outcomes = _outcomes(task, rows)
+    comparison = Comparison(str(path), reference, timeout)
+    outcomes = _outcomes(comparison, rows)
     if as_json:
         pairs = zip(rows, outcomes, strict=True)
-        click.echo(json.dumps([_for_json(*pair) for pair in pairs], indent=2))
+        click.echo(json.dumps([_json_row(*pair) for pair in pairs], indent=2))
     else:
-        click.echo(_table(task, rows, outcomes))
+        click.echo(_table(comparison, rows, outcomes))
     if any(outcome.error for outcome in outcomes):
         click.get_current_context().exit(1)
 
@@ -175,76 +177,68 @@ def _contenders(given: dict[str, Any], peers: bool) -> list[Contender]:
     return [contenders.INITIAL, *own, *(contenders.PEERS if peers else ())]
 
 
-def _outcomes(task: trials.Task, rows: Sequence[Contender]) -> list[trials.Outcome]:
-    """Run the rows one by one, with a bar on a terminal, and say which failed.
+def _outcomes(comparison: Comparison, rows: Sequence[Contender]) -> list[Outcome]:
+    """Compute the rows one by one, and print the errors of those that failed.
 
     Raises
     ------
     ClickException
-        If not even the mesh as it is can be measured.
+        If not even the initial mesh can be measured.
     """
-    outcomes: list[trials.Outcome] = []
-    with progress.shown(Path(task.source).name, len(rows)) as status:
+    outcomes: list[Outcome] = []
+    with progress.shown(Path(comparison.source).name, len(rows)) as status:
         for contender in rows:
-            status.next(f"{contender.name}: {trials.READING}")
-            outcomes.append(trials.run(task, contender, partial(_show, status, contender.name)))
+            status.next(f"{contender.name}: {compare_row.READING}")
+            say = partial(_show_phase, status, contender.name)
+            outcomes.append(compare_row.run(comparison, contender, say))
             if outcomes[0].error:
                 break
-    _tell(task, rows, outcomes)
+    for contender, outcome in zip(rows, outcomes, strict=False):
+        if outcome.trace and is_debug():
+            click.echo(outcome.trace, err=True)
+        if outcome.error and not outcomes[0].error:
+            click.echo(f"Error: {contender.name}: {outcome.error}", err=True)
+    if error := outcomes[0].error:
+        names = (comparison.source, comparison.reference or comparison.source)
+        is_named = outcomes[0].of_machine or any(name in error for name in names)
+        raise click.ClickException(error if is_named else f"{comparison.source}: {error}")
     return outcomes
 
 
-def _show(status: progress.Status, name: str, word: str) -> None:
-    status.begin(f"{name}: {word}")
+def _show_phase(status: progress.Status, name: str, phase: str) -> None:
+    status.begin(f"{name}: {phase}")
 
 
-def _tell(task: trials.Task, rows: Sequence[Contender], outcomes: Sequence[trials.Outcome]) -> None:
-    initial = outcomes[0]
-    debug = click.get_current_context().meta.get("debug")
-    for contender, outcome in zip(rows, outcomes, strict=False):
-        if outcome.trace and debug:
-            click.echo(outcome.trace, err=True)
-        if outcome.error and not initial.error:
-            click.echo(f"Error: {contender.name}: {outcome.error}", err=True)
-    if initial.error:
-        names = (task.source, task.reference or task.source)
-        if initial.of_machine or any(name in initial.error for name in names):
-            raise click.ClickException(initial.error)
-        raise click.ClickException(f"{task.source}: {initial.error}")
+def _json_row(contender: Contender, outcome: Outcome) -> dict[str, Any]:
+    """One row, with null for what is unknown."""
+    ending = {"seconds": outcome.seconds, "timed_out": outcome.timed_out, "error": outcome.error}
+    return for_json({**contender._asdict(), **_numbers(outcome), **ending})
 
 
-def _for_json(contender: Contender, outcome: trials.Outcome) -> dict[str, Any]:
-    """One row; what is unknown, or no finite number, is null."""
-    told = {"seconds": outcome.seconds, "timed_out": outcome.timed_out, "error": outcome.error}
-    row = {**contender._asdict(), **_numbers(outcome), **told}
-    return {
-        key: None if isinstance(value, float) and not math.isfinite(value) else value
-        for key, value in row.items()
-    }
-
-
-def _numbers(outcome: trials.Outcome) -> dict[str, Any]:
+def _numbers(outcome: Outcome) -> dict[str, Any]:
     """The number of each column."""
     return {
         column.key: (outcome.figures or {}).get(column.key) for column in (*COLUMNS, *REFERENCED)
     }
 
 
-def _table(task: trials.Task, rows: Sequence[Contender], outcomes: Sequence[trials.Outcome]) -> str:
-    columns = (*COLUMNS, *REFERENCED) if task.reference else COLUMNS
+def _table(comparison: Comparison, rows: Sequence[Contender], outcomes: Sequence[Outcome]) -> str:
+    columns = (*COLUMNS, *REFERENCED) if comparison.reference else COLUMNS
+    header = ("", *(column.head for column in columns), "seconds")
     cells = [
-        (contender.name, *(_cell(column, outcome) for column in columns), _time(task, outcome))
+        (
+            contender.name,
+            *(_cell(column, outcome) for column in columns),
+            _time(comparison, outcome),
+        )
         for contender, outcome in zip(rows, outcomes, strict=True)
     ]
-    header = ("", *(column.head for column in columns), "seconds")
-    lines = in_columns([header, *cells]).splitlines()
-    rule = "-" * max(map(len, lines))
-    legends = (LEGEND, REFERENCE_LEGEND) if task.reference else (LEGEND,)
-    return "\n".join([lines[0], rule, *lines[1:], rule, *legends])
+    legend = f"{LEGEND}\n{REFERENCE_LEGEND}" if comparison.reference else LEGEND
+    return table([header, *cells], legend)
 
 
-def _cell(column: Column, outcome: trials.Outcome) -> str:
-    """A number; nothing for what is unknown."""
+def _cell(column: Column, outcome: Outcome) -> str:
+    """A number; empty if it is unknown."""
     from ..report.table import significant
 
     value = _numbers(outcome)[column.key]
@@ -253,9 +247,9 @@ def _cell(column: Column, outcome: trials.Outcome) -> str:
     return format(value, column.written) if column.written else significant(value)
 
 
-def _time(task: trials.Task, outcome: trials.Outcome) -> str:
+def _time(comparison: Comparison, outcome: Outcome) -> str:
     if outcome.error:
         return "failed"
     if outcome.timed_out:
-        return f"> {task.timeout:g}"
+        return f"> {comparison.timeout:g}"
     return "" if outcome.seconds is None else f"{outcome.seconds:.2f}"

@@ -1,4 +1,4 @@
-"""`meshlab-willmore convert`: an old script in today's form."""
+"""`meshlab-willmore convert`: rewrite an old script in today's form."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ import click
 
 from ..files import is_stream, write
 from .errors import debug_option
-from .outputs import check_place
-from .scripts import STANDARD_STREAM, source_of
+from .options import force_option
+from .paths import STANDARD_STREAM, check_place, read_script
 
 if TYPE_CHECKING:
     from ..meshset.check import Call
@@ -28,16 +28,16 @@ Examples:
 @click.argument("source", metavar="SCRIPT")
 @click.argument("target", metavar="OUT", type=click.Path(path_type=Path))
 @click.option(
-    "--meshlab", is_flag=True, help="Leave out the steps that MeshLab's window does not know."
+    "--meshlab", is_flag=True, help="Leave out the steps that MeshLab's window does not have."
 )
-@click.option("--force", is_flag=True, help="Replace a file that is there already.")
+@force_option
 @debug_option
 def command(source: str, target: Path, meshlab: bool, force: bool) -> None:
     """Rewrite a filter script with today's names of filters, parameters and types.
 
     Old forms, from the time of meshlabserver, and PyMeshLab's names become what MeshLab writes
-    today. What does not do the same as before is said. A script with faults is not converted. For
-    SCRIPT and OUT, - is the standard input and output; pipes will do as well.
+    today. Steps that do not do the same as before are listed. A script with errors is not
+    converted. For SCRIPT and OUT, - is the standard input and output; pipes work as well.
     """
     from ..meshset.document import is_step
     from ..meshset.modern import in_todays_form
@@ -47,7 +47,7 @@ def command(source: str, target: Path, meshlab: bool, force: bool) -> None:
     is_output = str(target) == STANDARD_STREAM
     if not is_output:
         check_place(target, force, "today.mlx", takes_streams=True)
-    script = source_of(source)
+    script = read_script(source)
     found = script.examined()
     if found.faults:
         raise ScriptError(script.name, found.faults)
@@ -59,7 +59,7 @@ def command(source: str, target: Path, meshlab: bool, force: bool) -> None:
         click.echo(data, nl=False)
     else:
         write(target, data)
-    # What comes out of the script must be nothing but a script.
+    # The standard output must hold nothing but the script.
     beside = is_output or is_stream(target)
     click.echo(f"{script.name} -> {target}: {len(kept)} of {len(checked)} steps", err=beside)
     if not kept:
@@ -74,18 +74,18 @@ def command(source: str, target: Path, meshlab: bool, force: bool) -> None:
 
 
 def _changes(checked: Sequence[Call], kept: Sequence[Call], meshlab: bool) -> Iterator[str]:
-    """What is left out, and what depends on the mesh, in a line each."""
+    """A line for each step that is left out or depends on the mesh."""
     for call in checked:
         if call not in kept:
             yield f"left out: step {call.number}, {call.known.meshlab_name}"
-        elif meshlab and _shares(call):
+        elif meshlab and _percentages(call):
             yield (
                 f"step {call.number}, {call.known.meshlab_name}: a percentage depends on the mesh; "
-                f"MeshLab's window wants another value for {', '.join(_shares(call))}"
+                f"MeshLab's window needs another value for {', '.join(_percentages(call))}"
             )
 
 
-def _shares(call: Call) -> list[str]:
+def _percentages(call: Call) -> list[str]:
     from ..mlx.steps import Percentage
 
     return [key for key, value in call.given.items() if isinstance(value, Percentage)]

@@ -25,15 +25,15 @@ Examples:
     default=Path("willmore-demo"),
     show_default=True,
     metavar="DIR",
-    help="Folder for the meshes and pictures; made if it isn't there.",
+    help="Folder for the meshes and pictures; created if it does not exist.",
 )
 @debug_option
 def command(output: Path) -> None:
     """Show the method on the paper's three models: a cube, a torus and a scanned face.
 
-    The meshes go through PyMeshLab filters, the Willmore flips among them. A table of what
-    happened goes to the standard output, meshes (PLY) and pictures of before and after (PNG) into
-    the folder. It needs no network and no file of yours.
+    PyMeshLab filters, the Willmore flips among them, process the meshes. A table of the results
+    goes to the standard output, meshes (PLY) and pictures of before and after (PNG) into the
+    folder. It needs no network and no files.
     """
     from ..demo.story import tell
     from ..report.table import format_table

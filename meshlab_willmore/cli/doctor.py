@@ -1,17 +1,28 @@
-"""`meshlab-willmore doctor`: whether this machine is fit."""
+"""`meshlab-willmore doctor`: check this machine, and name the command that fixes what is wrong."""
 
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Sequence
+from importlib import metadata
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import click
 
+from .. import machine
+from .._version import __version__
 from . import progress
 from .errors import debug_option
-
-if TYPE_CHECKING:
-    from .checks import Finding
+from .options import json_option
+from .text import counted
 
 EXAMPLES = """\b
 Examples:
@@ -19,35 +30,328 @@ Examples:
   meshlab-willmore doctor --json
 """
 
+OLDEST_PYTHON = (3, 10)
+LIBRARIES = ("pymeshlab", "numpy", "numba")
+# The packages with libGL.so.1 and libOpenGL.so.0, by the program that installs them.
+INSTALLERS = {
+    "apt-get": machine.DEBIAN_PACKAGES,
+    "dnf": "dnf install mesa-libGL libglvnd-opengl",
+}
+REINSTALL = f"{Path(sys.executable).name} -m pip install --force-reinstall meshlab-willmore"
+WARM_UP = "meshlab-willmore warmup"
 
-@click.command("doctor", short_help="Tell whether this machine is fit.", epilog=EXAMPLES)
-@click.option("--json", "as_json", is_flag=True, help="Print JSON for machines.")
+# Meshes and textures are written into the folder for temporary files.
+ROOM_WANTED = 200 * 2**20
+# How many names a message lists.
+_NAMED = 6
+
+
+class Finding(NamedTuple):
+    """The result of a check.
+
+    Attributes
+    ----------
+    name : str
+        What was checked.
+    ok : bool
+        Whether it is all right.
+    text : str
+        What was found.
+    cure : str
+        The command that fixes it, empty where nothing is wrong.
+    """
+
+    name: str
+    ok: bool
+    text: str
+    cure: str = ""
+
+
+@click.command("doctor", short_help="Check this machine.", epilog=EXAMPLES)
+@json_option
 @debug_option
 def command(as_json: bool) -> None:
-    """Look at what this package needs, and name the command that mends what is missing.
+    """Check what this package needs, and name the command that fixes what is wrong.
 
-    Libraries, PyMeshLab's plugins and the filters gone with them, Numba's variables, compiler and
-    cache folder, room for temporary files. Exit code 0 if all is fit, else 1.
+    Checks Python and libraries, PyMeshLab's plugins and filters, Numba's variables, compiler and
+    cache, and the folder for temporary files. Exit code 0 if all checks pass, else 1.
     """
-    from .checks import ALL
-
     findings = []
-    with progress.shown("doctor", len(ALL)) as status:
-        for check in ALL:
+    with progress.shown("doctor", len(CHECKS)) as status:
+        for check in CHECKS:
             status.next(getattr(check, "__name__", ""))
             finding = check()
             findings.append(finding)
             if not as_json:
-                click.echo(_shown(finding))
-    wrong = sum(not finding.ok for finding in findings)
+                click.echo(_line(finding))
+    failed = sum(not finding.ok for finding in findings)
     if as_json:
-        click.echo(json.dumps({"fit": not wrong, "findings": [f._asdict() for f in findings]}))
+        click.echo(json.dumps({"ok": not failed, "findings": [f._asdict() for f in findings]}))
     else:
-        click.echo(f"{wrong} of {len(findings)} checks failed" if wrong else "This machine is fit.")
-    if wrong:
+        result = f"{failed} of {len(findings)} checks failed"
+        click.echo(result if failed else "All checks passed.")
+    if failed:
         click.get_current_context().exit(1)
 
 
-def _shown(finding: Finding) -> str:
+def _line(finding: Finding) -> str:
     line = f"{'ok ' if finding.ok else 'BAD'}  {finding.name}: {finding.text}"
-    return line if finding.ok else f"{line}\n     mend it: {finding.cure}"
+    return line if finding.ok else f"{line}\n     fix: {finding.cure}"
+
+
+# --- checks ------------------------------------------------------------------------------------
+
+
+def python() -> Finding:
+    """Check that the interpreter is new enough."""
+    version = ".".join(map(str, sys.version_info[:3]))
+    if sys.version_info[:2] < OLDEST_PYTHON:
+        cure = f"install Python {'.'.join(map(str, OLDEST_PYTHON))} or later"
+        return Finding("Python", False, f"{version} is too old", cure)
+    return Finding("Python", True, f"{version} ({sys.executable})")
+
+
+def libraries() -> Finding:
+    """Check that all libraries are installed."""
+    versions = {name: _version(name) for name in LIBRARIES}
+    absent = [name for name, version in versions.items() if not version]
+    if absent:
+        cure = f"{sys.executable} -m pip install {' '.join(absent)}"
+        return Finding("packages", False, f"{', '.join(absent)} not installed", cure)
+    versions = {"meshlab_willmore": __version__, **versions}
+    return Finding("packages", True, ", ".join(f"{n} {v}" for n, v in versions.items()))
+
+
+def _version(name: str) -> str:
+    try:
+        return metadata.version(name)
+    except metadata.PackageNotFoundError:
+        return ""
+
+
+def settings() -> Finding:
+    """Check that Numba's variables have possible values."""
+    answer = ask(_SETTINGS)
+    given = [f"{key}={value}" for key, value in os.environ.items() if key.startswith("NUMBA_")]
+    return _wrong_setting("variables", answer) or Finding(
+        "variables", True, ", ".join(sorted(given)) or "no NUMBA_ variable is set"
+    )
+
+
+def pymeshlab() -> Finding:
+    """Check that PyMeshLab can be imported with all its plugins."""
+    answer = ask(_PYMESHLAB)
+    if not answer.values:
+        missing = machine.broken_libraries(answer.printed)
+        if missing:
+            text = f"can't be loaded: {', '.join(missing)} is missing or broken"
+            return Finding("PyMeshLab", False, text, _install_libraries())
+        return Finding("PyMeshLab", False, f"can't be loaded: {answer.last_line}", REINSTALL)
+    plugins = sorted(set(re.findall(r"^\s*(?:lib)?(\w+)\.(?:so|dll|dylib):", answer.printed, re.M)))
+    if plugins:
+        missing = machine.broken_libraries(answer.printed)
+        because = f" ({', '.join(missing)} can't be loaded)" if missing else ""
+        text = f"plugins that did not load: {', '.join(plugins)}{because}"
+        return Finding("PyMeshLab", False, text, _install_libraries())
+    return Finding("PyMeshLab", True, f"loads, with {answer.values['filters']} filters")
+
+
+def _install_libraries() -> str:
+    """The command for this machine, or all of them."""
+    here = [command for program, command in INSTALLERS.items() if shutil.which(program)]
+    return here[0] if here else " or ".join(INSTALLERS.values())
+
+
+def filters() -> Finding:
+    """Check that our filters are registered, and PyMeshLab has all filters of its version."""
+    answer = ask(_FILTERS)
+    wrong = _wrong_setting("filters", answer)
+    if wrong:
+        return wrong
+    missing = machine.broken_libraries(answer.printed)
+    if not answer.values and missing:
+        text = f"the Willmore filters are missing: {', '.join(missing)} is missing or broken"
+        return Finding("filters", False, text, _install_libraries())
+    if not answer.values.get("registered"):
+        text = f"the Willmore filters are missing: {answer.last_line}"
+        return Finding("filters", False, text, "fix PyMeshLab first; if it is ok: " + REINSTALL)
+    gone = answer.values["missing"]
+    if not gone:
+        return Finding("filters", True, "the Willmore filters and all native ones are there")
+    more = len(gone) - _NAMED
+    names = ", ".join(gone[:_NAMED]) + (f" and {more} more" if more > 0 else "")
+    text = f"{len(gone)} of PyMeshLab's filters are missing: {names}"
+    here, known = answer.values["version"], answer.values["recorded"]
+    if here != known:
+        text += f" (this is PyMeshLab {here}; the list is that of {known})"
+        return Finding("filters", True, text)
+    return Finding("filters", False, text, _install_libraries())
+
+
+def compiler() -> Finding:
+    """Check that Numba can compile."""
+    if _compiler_is_off():
+        text = "the compiler is off, everything is slow: NUMBA_DISABLE_JIT is set"
+        return Finding("Numba", False, text, "unset NUMBA_DISABLE_JIT")
+    answer = ask(_COMPILER)
+    wrong = _wrong_setting("Numba", answer)
+    if wrong:
+        return wrong
+    if not answer.values:
+        cure = f"{sys.executable} -m pip install --upgrade numba"
+        return Finding("Numba", False, f"can't compile: {answer.last_line}", cure)
+    threads, cores = answer.values["threads"], answer.values["cores"]
+    more = f" on {counted(cores, 'core')}, more than useful" if threads > cores else ""
+    return Finding("Numba", True, f"compiles; threads: {threads}{more}")
+
+
+def _compiler_is_off() -> bool:
+    return os.environ.get("NUMBA_DISABLE_JIT", "").strip().lstrip("+-0") != ""
+
+
+def cache() -> Finding:
+    """Check that compiled kernels are kept for later processes."""
+    name = "Numba's cache"
+    if _compiler_is_off():
+        return Finding(name, True, "not needed while the compiler is off")
+    problem = machine.cache_problem()
+    if problem is not None:
+        return Finding(name, False, *problem)
+    answer = ask(_CACHE)
+    wrong = _wrong_setting(name, answer)
+    if wrong:
+        return wrong
+    if not answer.values:
+        return Finding(name, False, f"can't be read: {answer.last_line}", "fix the failures above")
+    folder = answer.values["folder"]
+    if not folder:
+        text = "no writable folder: each process compiles again, for ten to thirty seconds"
+        return Finding(name, False, text, progress.cache_cure())
+    why = machine.unwritable(Path(folder))
+    if why:
+        return Finding(name, False, f"{folder}: {why}", progress.cache_cure())
+    damaged = answer.values.get("damaged")
+    if damaged:
+        return _damage(name, damaged)
+    return Finding(name, True, f"{folder} ({_warmth(**answer.values)})")
+
+
+def _damage(name: str, paths: Sequence[str]) -> Finding:
+    names = paths if len(paths) <= _NAMED else sorted({str(Path(path).parent) for path in paths})
+    shown = ", ".join(names[:_NAMED])
+    text = f"{counted(len(paths), 'file')} damaged, compiled again when needed: {shown}"
+    return Finding(name, False, text, f"rm -r {shlex.join(names)}")
+
+
+def _warmth(missing: int | None, steps: int, **_: object) -> str:
+    """How much of what the filters need is compiled; None if that is unknown."""
+    if missing is None:
+        return f"{WARM_UP!r} compiles everything that is missing"
+    if not missing:
+        return "everything is compiled"
+    ready = steps - missing
+    done = f"{ready} of {steps} ways to flip and measure" if ready else "nothing"
+    return f"{done} compiled yet; the rest on first use, or now with: {WARM_UP}"
+
+
+def temporary() -> Finding:
+    """Check the folder for temporary files, through which meshes pass."""
+    name = "temporary files"
+    problem = machine.temporary_problem(ROOM_WANTED)
+    if problem is not None:
+        return Finding(name, False, *problem)
+    folder = tempfile.gettempdir()
+    free = shutil.disk_usage(folder).free
+    return Finding(name, True, f"{folder}, {free // machine.MIB} MiB free")
+
+
+CHECKS = (python, libraries, settings, pymeshlab, filters, compiler, cache, temporary)
+
+
+def _wrong_setting(name: str, answer: Answer) -> Finding | None:
+    """The finding if a process ended because one of Numba's variables is wrong."""
+    _, found, said = answer.printed.rpartition(f"{machine.SettingError.__name__}: ")
+    if not found or answer.values:
+        return None
+    text, _, cure = said.splitlines()[0].partition(machine.MEND)
+    return Finding(name, False, text, cure)
+
+
+# --- questions to other processes --------------------------------------------------------------
+#
+# An import can crash and print what it likes, and Numba reads its variables once.
+
+# Before the answer: PyMeshLab prints warnings on the same stream.
+_MARK = "meshlab-willmore-answer:"
+_SECONDS = 300
+
+_PYMESHLAB = """
+import pymeshlab
+answer = {"filters": len(pymeshlab.filter_list())}
+"""
+_FILTERS = """
+import meshlab_willmore
+from meshlab_willmore.meshset import catalogue
+answer = {
+    "registered": meshlab_willmore.is_registered(),
+    "missing": sorted(known.name for known in catalogue.missing()),
+    "version": catalogue.version(),
+    "recorded": catalogue.recorded_version(),
+}
+"""
+_SETTINGS = """
+from meshlab_willmore import quick_start
+quick_start.import_numba()
+answer = {"ok": True}
+"""
+_COMPILER = """
+import meshlab_willmore
+import numba
+@numba.njit
+def double(n):
+    return 2 * n
+double(1)
+from meshlab_willmore.mesh.workers import thread_count
+answer = {"threads": thread_count(), "cores": numba.config.NUMBA_DEFAULT_NUM_THREADS}
+"""
+_CACHE = """
+from meshlab_willmore import warmup
+from meshlab_willmore.mesh import compiling, jit
+folder = jit.cache_folder()
+answer = {"folder": folder, "steps": len(warmup.steps()), "missing": None}
+answer["damaged"] = jit.damaged_entries()
+if folder and compiling.CAN_TELL:
+    answer["missing"] = len(warmup.missing())
+"""
+
+
+class Answer(NamedTuple):
+    """The values of a process, empty if it gave none, and everything else that it printed."""
+
+    values: dict[str, Any]
+    printed: str
+
+    @property
+    def last_line(self) -> str:
+        """The last printed line, which has the error."""
+        return self.printed.splitlines()[-1] if self.printed else "it ended without a message"
+
+
+def ask(program: str) -> Answer:
+    """Run a program that sets `answer` in a process of its own."""
+    code = f"{program}\nimport json\nprint({_MARK!r} + json.dumps(answer))"
+    try:
+        done = subprocess.run(
+            [sys.executable, "-c", code],
+            capture_output=True,
+            text=True,
+            errors="replace",
+            timeout=_SECONDS,
+            check=False,
+        )
+    except subprocess.TimeoutExpired:
+        return Answer({}, f"no answer in {_SECONDS} seconds")
+    printed, _, text = done.stdout.partition(_MARK)
+    values, _, rest = text.partition("\n")
+    printed = f"{printed.rstrip()}\n{rest}{done.stderr}".strip()
+    return Answer(json.loads(values) if values else {}, printed)

@@ -1,11 +1,17 @@
-"""How a command ends: in one line and with an exit code that scripts can trust."""
+"""How a command ends: in one line, with an exit code that scripts can trust, also by a signal."""
 
 from __future__ import annotations
 
+import os
 import re
+import signal
+import sys
+import threading
 import warnings
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from types import FrameType
 from typing import Any
 
 import click
@@ -13,7 +19,6 @@ import click
 from .. import machine
 from ..markup import plain
 from ..mlx.steps import ScriptError
-from . import stopping, streams
 
 DOCTOR = " ('meshlab-willmore doctor' tells what is missing)"
 
@@ -22,6 +27,11 @@ _PRELUDE = re.compile(r"(?:Error d|D)etails:|Unable to (?:open|save) file:[^\n]*
 # How a command line of meshlabserver begins.
 _OLD_OPTIONS = ("-i", "-o", "-s", "-l", "-m", "-p", "-w", "-x", "-d")
 _SCRIPT = ".mlx"
+
+# A shell reports this plus its number for a process that a signal ended.
+SIGNAL_EXIT = 128
+# Windows has no SIGHUP.
+_WATCHED = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
 
 
 class FaultyScript(click.ClickException):
@@ -43,52 +53,41 @@ class WrongUse(click.ClickException):
 
 
 class OneLineErrors(click.Group):
-    """A group whose commands end with one line and a telling exit code when something fails."""
+    """A group whose commands end with one line and an exit code when something fails."""
 
     def main(self, *args: Any, **given: Any) -> Any:
-        """Begin with all standard streams in their places."""
-        streams.completed()
+        """Run the command line with all standard streams open."""
+        open_closed_streams()
         return super().main(*args, **given)
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Read the options before the command's name."""
         _refuse_old_form(args)
-        with _wrong_use_in_one_line():
+        with _usage_errors_in_one_line():
             return super().parse_args(ctx, args)
 
     def invoke(self, ctx: click.Context) -> Any:
-        """Run the command; what click itself says stays, other errors become one line."""
-        with stopping.watched(ctx), _wrong_use_in_one_line(), _notes_in_one_line():
-            return self._invoke(ctx)
-
-    def _invoke(self, ctx: click.Context) -> Any:
-        try:
-            return super().invoke(ctx)
-        except (click.ClickException, click.exceptions.Exit, click.Abort, BrokenPipeError):
-            raise
-        except Exception as error:
-            if ctx.meta.get("debug"):
+        """Run the command; click's own errors stay, others become one line."""
+        with stopped_by_signals(ctx), _usage_errors_in_one_line(), _warnings_as_notes():
+            try:
+                return super().invoke(ctx)
+            except (click.ClickException, click.exceptions.Exit, click.Abort, BrokenPipeError):
                 raise
-            if isinstance(error, ScriptError):
-                raise FaultyScript(error) from error
-            fault = machine.fault_of(error)
-            if fault is not None:
-                raise click.ClickException(one_line(fault)) from error
-            text = one_line(error)
-            if isinstance(error, ImportError):
-                text = (machine.without_library(error) or text) + DOCTOR
-            raise click.ClickException(text) from error
+            except Exception as error:
+                if is_debug():
+                    raise
+                raise _as_click_error(error) from error
 
 
 def _refuse_old_form(args: list[str]) -> None:
-    """Raise `WrongUse` where `run` is missing, which meshlabserver had no word for."""
+    """Raise `WrongUse` where `run` is missing: meshlabserver had no commands."""
     first = args[0] if args else ""
     if first in _OLD_OPTIONS or first.lower().endswith(_SCRIPT):
         raise WrongUse(f"{first} belongs to the command run: meshlab-willmore run {first} ...")
 
 
 @contextmanager
-def _wrong_use_in_one_line() -> Iterator[None]:
+def _usage_errors_in_one_line() -> Iterator[None]:
     try:
         yield
     except click.UsageError as error:
@@ -100,8 +99,8 @@ def _wrong_use_in_one_line() -> Iterator[None]:
 
 
 @contextmanager
-def _notes_in_one_line() -> Iterator[None]:
-    """Warnings of this package inside are notes."""
+def _warnings_as_notes() -> Iterator[None]:
+    """Inside, warnings about the machine are printed as notes."""
     with warnings.catch_warnings():
         warnings.simplefilter("always", machine.MachineWarning)
         show = warnings.showwarning
@@ -116,19 +115,32 @@ def _notes_in_one_line() -> Iterator[None]:
         yield
 
 
+def _as_click_error(error: Exception) -> click.ClickException:
+    if isinstance(error, ScriptError):
+        return FaultyScript(error)
+    fault = machine.fault_of(error)
+    if fault is None and isinstance(error, ImportError):
+        text = machine.without_library(error) or one_line(error)
+        return click.ClickException(text + DOCTOR)
+    return click.ClickException(one_line(fault or error))
+
+
+# --- messages ----------------------------------------------------------------------------------
+
+
 def one_line(error: BaseException) -> str:
-    """What an error says, in one line; its type where it says nothing."""
+    """The message of an error in one line; its type if it has none."""
     return " ".join(str(error).split()) or type(error).__name__
 
 
 def reason(error: BaseException) -> str:
-    """What an error says, in one line, without what PyMeshLab puts before it and markup."""
+    """The message in one line, without what PyMeshLab puts before it, and without markup."""
     text = plain(_PRELUDE.split(str(error))[-1])
     return " ".join(text.split()) or type(error).__name__
 
 
-def told_of(name: str, error: Exception, say: Callable[[BaseException], str] = one_line) -> str:
-    """What went wrong with an input, in one line with its name; the machine's fault as such."""
+def failure_of(name: str, error: Exception, say: Callable[[BaseException], str] = one_line) -> str:
+    """One line on an input that failed, with its name; a fault of the machine blames no input."""
     fault = machine.fault_of(error)
     if fault is not None:
         return f"{one_line(fault)} ({name} is left out)"
@@ -137,17 +149,17 @@ def told_of(name: str, error: Exception, say: Callable[[BaseException], str] = o
 
 
 def stops_all(error: Exception) -> bool:
-    """Whether other inputs would fail in the same way: something is missing, or set wrong."""
+    """Whether all other inputs would fail in the same way: a library or a setting is wrong."""
     return isinstance(machine.fault_of(error) or error, ImportError)
 
 
-def wrong_use(text: str) -> WrongUse:
-    """An error of whoever wrote the command line: exit code 2."""
-    return WrongUse(text)
+def is_debug() -> bool:
+    """Whether errors are shown with their traceback."""
+    return bool(click.get_current_context().meta.get("debug"))
 
 
 def _remember_debug(ctx: click.Context, _option: click.Parameter, value: bool) -> None:
-    # meta is shared by a group and its commands: the option works before and after the name.
+    # A group and its commands share meta: the option works before and after the command's name.
     ctx.meta["debug"] = ctx.meta.get("debug", False) or value
 
 
@@ -158,3 +170,87 @@ debug_option = click.option(
     callback=_remember_debug,
     help="Show the whole traceback of an error.",
 )
+
+
+# --- streams and signals -----------------------------------------------------------------------
+
+
+def open_closed_streams() -> None:
+    """Connect standard streams that are closed to the null device.
+
+    Otherwise the next file that is opened, such as an output, would get the number of a standard
+    stream, and what C++ code prints would go into it.
+    """
+    for descriptor in (0, 1, 2):
+        if not _is_open(descriptor):
+            # The lowest free number is this one.
+            os.open(os.devnull, os.O_RDWR)
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, Path(os.devnull).open("w", encoding="utf-8"))  # noqa: SIM115
+
+
+def _is_open(descriptor: int) -> bool:
+    try:
+        os.fstat(descriptor)
+    except OSError:
+        return False
+    return True
+
+
+@contextmanager
+def stopped_by_signals(ctx: click.Context) -> Iterator[None]:
+    """Inside, SIGTERM and SIGHUP act as Ctrl-C, and the exit code is 128 plus their number.
+
+    Filters defer a Ctrl-C to the end of a change, and Numba's compiler would swallow any other
+    exception. A second signal ends the process at once.
+    """
+    caught: list[int] = []
+
+    def stop(number: int, frame: FrameType | None) -> None:
+        caught.append(number)
+        for watched in _WATCHED:
+            if signal.getsignal(watched) is stop:
+                signal.signal(watched, signal.SIG_DFL)
+        handle = signal.getsignal(signal.SIGINT)
+        if not callable(handle):
+            raise KeyboardInterrupt
+        handle(signal.SIGINT, frame)
+
+    # What is ignored stays ignored: nohup does that to SIGHUP.
+    with _handled_by(stop, lambda handler: handler not in (signal.SIG_IGN, None)):
+        try:
+            yield
+        except (KeyboardInterrupt, click.Abort):
+            if not caught:
+                raise
+            # The terminal may be closed.
+            with suppress(OSError):
+                click.echo(f"Error: terminated by {signal.Signals(caught[0]).name}", err=True)
+            ctx.exit(SIGNAL_EXIT + caught[0])
+
+
+@contextmanager
+def killable() -> Iterator[None]:
+    """Inside, SIGTERM and SIGHUP end the process at once: no handler runs during native code.
+
+    Only for times in which no file of ours is half written.
+    """
+    with _handled_by(signal.SIG_DFL, callable):
+        yield
+
+
+@contextmanager
+def _handled_by(handler: object, is_replaced: Callable[[object], bool]) -> Iterator[None]:
+    """Replace the handlers of the signals inside, where `is_replaced` is true of the old one."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = {number: old for number in _WATCHED if is_replaced(old := signal.getsignal(number))}
+    for number in before:
+        signal.signal(number, handler)  # type: ignore[arg-type]
+    try:
+        yield
+    finally:
+        for number, old in before.items():
+            signal.signal(number, old)

@@ -1,4 +1,4 @@
-"""`meshlab-willmore filters`: which filters there are, and what each takes."""
+"""`meshlab-willmore filters`: list the filters, or explain the parameters of one."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .columns import in_columns
-from .errors import debug_option, wrong_use
+from .errors import WrongUse, debug_option
+from .text import in_columns
 
 if TYPE_CHECKING:
     from ..meshset.catalogue import FilterInfo, ParamInfo
@@ -28,9 +28,9 @@ WIDTH = 88
 @click.argument("name", required=False, nargs=-1)
 @debug_option
 def command(name: tuple[str, ...]) -> None:
-    """List all filters, those whose name has the words NAME in it, or explain the filter NAME.
+    """List all filters, or those with the words NAME in their names, or explain the filter NAME.
 
-    Names are those of PyMeshLab, and those of MeshLab and its scripts. Scripts take either.
+    Names are those of PyMeshLab and those of MeshLab and its scripts. Scripts may use either.
     """
     from ..meshset.catalogue import closest, everything, find
 
@@ -43,7 +43,7 @@ def command(name: tuple[str, ...]) -> None:
     if not found:
         close = ", ".join(closest(wanted))
         hint = f"; the closest are {close}" if close else ""
-        raise wrong_use(f"there is no filter {wanted!r}{hint}")
+        raise WrongUse(f"there is no filter {wanted!r}{hint}")
     rows = [(k.name, k.meshlab_name) for k in sorted(found, key=lambda k: not k.is_willmore)]
     click.echo(in_columns(rows, left=2))
 
@@ -81,7 +81,7 @@ def _parameter(param: ParamInfo, values: dict[str, Any]) -> list[str]:
     other = f" (keyword {param.keyword})" if param.keyword != param.name else ""
     line = f"  {param.name}{other}: {param.type}"
     if param.required:
-        line += ", must be given"
+        line += ", required"
     elif param.keyword in values:
         line += f", default {_shown(values[param.keyword], param)}"
     choices = [f"      {i}: {choice}" for i, choice in enumerate(param.choices)]

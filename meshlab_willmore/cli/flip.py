@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from ..options import OPTIONS, Option
-from . import progress, told
-from .errors import debug_option, reason
-from .masks import is_part, mask_option
-from .spelling import SeveralValues
+from . import loading, progress
+from .errors import WrongUse, debug_option, reason
+from .options import SeveralParts, force_option, mask_option
+from .paths import check_output, only_input
+from .text import flip_results
 
 if TYPE_CHECKING:
     import pymeshlab
@@ -27,10 +28,8 @@ Examples:
 """
 
 
-class FlipCommand(SeveralValues):
-    """A command that has the filter's parameters as options."""
-
-    several: ClassVar = {"-m": is_part, "--mask": is_part}
+class FlipCommand(SeveralParts):
+    """A command with the filter's parameters as options."""
 
     def get_params(self, ctx: click.Context) -> list[click.Parameter]:
         """The command's own parameters, and the filter's before its options."""
@@ -68,32 +67,30 @@ def _help(option: Option) -> str:
 @click.command("flip", cls=FlipCommand, short_help="Flip the edges of a mesh.", epilog=EXAMPLES)
 @click.argument("source", metavar="IN")
 @click.argument("target", metavar="OUT", type=click.Path(path_type=Path))
-@mask_option
-@click.option("--force", is_flag=True, help="Replace files that are there already.")
+@mask_option()
+@force_option
 @debug_option
 def command(source: str, target: Path, parts: tuple[str, ...], force: bool, **given: Any) -> None:
     """Flip edges of the mesh IN as long as an energy falls, and save it as OUT.
 
-    Vertices never move. The ending of OUT tells the format; it is there when it is whole. What
-    loading or saving leaves out is told in a note.
+    Vertices never move. The ending of OUT determines the format. OUT is written atomically. Notes
+    say what was lost in loading or saving.
     """
-    from .inputs import expand, loaded
-    from .outputs import check_target
-    from .saving import Wish, save
+    from .saving import SaveOptions, save
 
     chosen = {name: value for name, value in given.items() if value is not None}
     check_options(chosen)
-    path = only(expand([source]), source, "flip takes one, run takes all")
-    check_target(target, force)
+    path = only_input(source, "flip takes one, run takes all")
+    check_output(target, force)
     with progress.shown(path.name) as status:
         status.begin("reading")
-        ms = loaded(path)
+        ms = loading.loaded(path)
         status.begin("flipping")
         with progress.with_details(status):
             returned = _flipped(ms, path, chosen)
         status.begin(f"saving {target}")
-        save(ms, target, Wish(parts, force, path.parent))
-    click.echo(f"{path} -> {target}: {told.flips(returned)}, {returned['seconds']:.1f} s")
+        save(ms, target, SaveOptions(parts, force, path.parent))
+    click.echo(f"{path} -> {target}: {flip_results(returned)}, {returned['seconds']:.1f} s")
 
 
 def check_options(given: dict[str, Any]) -> None:
@@ -106,7 +103,6 @@ def check_options(given: dict[str, Any]) -> None:
     """
     from ..meshset.filters import BY_NAME
     from ..meshset.native import ERRORS
-    from .errors import wrong_use
 
     for parameter in BY_NAME[FILTER].parameters:
         if parameter.name in given:
@@ -115,24 +111,9 @@ def check_options(given: dict[str, Any]) -> None:
                 if parameter.check is not None:
                     parameter.check(value)
             except ERRORS as error:
-                raise wrong_use(f"--{parameter.name}: {reason(error)}") from error
+                raise WrongUse(f"--{parameter.name}: {reason(error)}") from error
             except ValueError as error:
-                raise wrong_use(f"--{parameter.name}: {error}") from error
-
-
-def only(paths: list[Path], pattern: str, rule: str) -> Path:
-    """The one file that `pattern` stands for.
-
-    Raises
-    ------
-    WrongUse
-        If there are several, with `rule`, which says what the command takes.
-    """
-    from .errors import wrong_use
-
-    if len(paths) > 1:
-        raise wrong_use(f"{pattern} stands for {len(paths)} files; {rule}")
-    return paths[0]
+                raise WrongUse(f"--{parameter.name}: {error}") from error
 
 
 def _flipped(ms: pymeshlab.MeshSet, path: Path, given: dict[str, Any]) -> dict[str, Any]:

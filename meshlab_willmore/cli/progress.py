@@ -1,46 +1,49 @@
-"""How far a command is: a line on a terminal that is redrawn, or whole lines in a log.
+"""Progress of a command: one line on a terminal that is redrawn, or whole lines in a log.
 
-While native filters, searches and the compiler work, a thread of its own goes on telling. On a
-terminal the line is drawn anew each second, and gone in the end. Where the standard error is no
-terminal, only what takes its time is told of, in a line every few seconds: whoever waits for a run
-in a log sees that it is alive, and a batch of quick ones says nothing of this.
+A thread shows it while native filters, searches and the compiler work. On a terminal the line is
+redrawn each second, and removed in the end. Elsewhere only what takes long is shown, in a line
+every few seconds; a batch of quick files prints none.
 """
 
 from __future__ import annotations
 
 import io
 import os
+import shlex
 import shutil
 import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
+from pathlib import Path
 from typing import Any, TextIO
 
-from . import cache_notes
-from .columns import beginning_of, columns_of, end_of, printable, width
+import click
+
+from .. import machine
+from .text import beginning_of, end_of, printable, terminal_width, width
 
 SECONDS_ON_A_TERMINAL = 1.0
 SECONDS_IN_A_LOG = 8.0
 
 _BAR = 16
-# In windows that are narrower there is room for nothing else.
+# Narrower windows have no room for the label.
 _ROOM_FOR_LABEL = 40
 _LEAST_SHOWN = 10
 
 
 class Status:
-    """What is being done, since when, and how much of it is done.
+    """What is being done, since when, and how much is done.
 
     Parameters
     ----------
     label : str
-        What it is about: a command or a file.
+        The command or the file.
     total : int
-        Number of parts; 0: it has none.
+        Number of parts; 0 if there are none.
     clock : callable
-        Seconds, from any time on.
+        Seconds since any time.
     """
 
     def __init__(self, label: str, total: int = 0, clock: Callable[[], float] = time.monotonic):
@@ -53,11 +56,11 @@ class Status:
         self._screen: _Screen | None = None
 
     def begin(self, what: str) -> None:
-        """Something else is done from now on."""
+        """Begin something else."""
         self._what, self._detail, self._since = printable(what), "", self._clock()
 
     def next(self, what: str) -> None:
-        """The next part is begun; the one before is done."""
+        """Begin the next part; the one before is done."""
         self._done = self._begun
         self._begun += 1
         self.begin(what)
@@ -65,17 +68,17 @@ class Status:
             self._screen.draw()
 
     def end(self) -> None:
-        """All is done."""
+        """Show that all is done."""
         self._done = self._total
         if self._screen is not None and self._total:
             self._screen.draw()
 
     def detail(self, text: str) -> None:
-        """Say more of what is being done."""
+        """Say more about what is being done."""
         self._detail = printable(text)
 
     def hide(self) -> None:
-        """Take the line off the terminal, until it is drawn again: something else is printed."""
+        """Remove the line from the terminal until it is drawn again: something else is printed."""
         if self._screen is not None:
             self._screen.hide()
 
@@ -85,8 +88,7 @@ class Status:
         seconds = f", {self._seconds()} s" if self._what else ""
         head = ""
         if room >= _ROOM_FOR_LABEL:
-            bar = self._bar()
-            head = f"{end_of(self._label, room // 3)}{bar}  "
+            head = f"{end_of(self._label, room // 3)}{self._bar()}  "
         text = self._text_in(room - width(head) - len(seconds))
         return beginning_of(f"{head}{text}{seconds}", room)
 
@@ -96,7 +98,7 @@ class Status:
         return f"{self._label}: {self._text()}{part}, {self._seconds()} s so far"
 
     def _text_in(self, columns: int) -> str:
-        """The text in so many columns; what is the news there goes before what it belongs to."""
+        """The text in so many columns; the detail, which changes, is cut last."""
         left = columns - width(self._detail) - 2
         if not self._detail or width(self._what) <= left:
             return beginning_of(self._text(), columns)
@@ -120,22 +122,21 @@ class Status:
 
 @contextmanager
 def shown(label: str, total: int = 0) -> Iterator[Status]:
-    """Tell what is done inside, as the `Status` that this gives says it."""
+    """Show progress inside, as told to the `Status`."""
     status = Status(label, total)
     stream = sys.stderr
     with ExitStack() as stack:
+        own = stack.enter_context(_duplicate(stream))
         if stream.isatty():
-            own = stack.enter_context(_own(stream))
-            screen = _Screen(own, lambda: status.line(_columns(own)))
-            status._screen = screen
+            screen = status._screen = _Screen(own, lambda: status.line(_columns(own)))
             stack.callback(screen.hide)
             for name in ("stdout", "stderr"):
-                _replaced(stack, name, screen)
+                stack.callback(setattr, sys, name, getattr(sys, name))
+                setattr(sys, name, _Above(getattr(sys, name), screen))
             stack.enter_context(_repeated(screen.draw, SECONDS_ON_A_TERMINAL))
             if total:
                 screen.draw()
         else:
-            own = stack.enter_context(_own(stream))
             stack.enter_context(
                 _repeated(lambda: print(status.sentence(), file=own, flush=True), SECONDS_IN_A_LOG)
             )
@@ -145,7 +146,7 @@ def shown(label: str, total: int = 0) -> Iterator[Status]:
 
 @contextmanager
 def with_details(status: Status) -> Iterator[None]:
-    """What searches and the compiler tell inside are details of what is being done."""
+    """Show what searches and the compiler report inside as details of what is being done."""
     from .. import quick_start
 
     quick_start.import_numba()
@@ -161,7 +162,38 @@ def with_details(status: Status) -> Iterator[None]:
 
     with heard_by(status.detail), compiling.followed(follow):
         yield
-    cache_notes.tell(has_compiled)
+    _note_lost_kernels(has_compiled)
+
+
+def _note_lost_kernels(has_compiled: bool) -> None:
+    """Print a note if what this command compiled can't be kept for the next one."""
+    from ..mesh.jit import cache_folder
+    from ..mesh.kernel_cache import write_errors
+
+    if machine.cache_problem() is not None:
+        # That was printed when Numba was imported.
+        return
+    if write_errors:
+        error = write_errors[-1]
+        why = os.strerror(error.errno) if error.errno else str(error)
+        text = f"compiled kernels can't be saved in {cache_folder()}: {why}"
+        write_errors.clear()
+    elif has_compiled and not cache_folder():
+        text = "there is no folder to keep compiled kernels in, so each run compiles again"
+    else:
+        return
+    click.echo(f"Note: {machine.Problem(text, cache_cure())}", err=True)
+
+
+def cache_cure() -> str:
+    """The command that gives the cache a folder: in the home directory if it is writable."""
+    try:
+        home = Path.home()
+    except RuntimeError:
+        home = Path()
+    is_usable = home.is_absolute() and not machine.unwritable(home)
+    folder = str(home / ".cache" / "numba") if is_usable else "/a/folder/of/yours"
+    return f"export {machine.CACHE_DIR}={shlex.quote(folder)}"
 
 
 class _Screen:
@@ -187,14 +219,14 @@ class _Screen:
                 self._drawn = 0
 
     def _put(self, text: str) -> None:
-        # The terminal may be what is gone.
+        # The terminal may be closed.
         with suppress(OSError, ValueError):
             self._stream.write(text)
             self._stream.flush()
 
 
 class _Above:
-    """A standard stream; what is printed on it stands above the line of a screen."""
+    """A standard stream whose text is printed above the line of a screen."""
 
     def __init__(self, stream: Any, screen: _Screen) -> None:
         self._stream = stream
@@ -208,15 +240,9 @@ class _Above:
         return getattr(self._stream, name)
 
 
-def _replaced(stack: ExitStack, name: str, screen: _Screen) -> None:
-    before = getattr(sys, name)
-    setattr(sys, name, _Above(before, screen))
-    stack.callback(setattr, sys, name, before)
-
-
 @contextmanager
-def _own(stream: Any) -> Iterator[TextIO]:
-    """The stream past its descriptor, which is turned away while native filters run."""
+def _duplicate(stream: Any) -> Iterator[TextIO]:
+    """The stream by another descriptor: its own is redirected while native filters run."""
     try:
         number = os.dup(stream.fileno())
     except (OSError, io.UnsupportedOperation):
@@ -228,7 +254,7 @@ def _own(stream: Any) -> Iterator[TextIO]:
 
 @contextmanager
 def _repeated(action: Callable[[], object], seconds: float) -> Iterator[None]:
-    """Do something every so many seconds, in a thread of its own."""
+    """Call `action` every so many seconds inside, in a thread."""
     ended = threading.Event()
 
     def repeat() -> None:
@@ -246,4 +272,4 @@ def _repeated(action: Callable[[], object], seconds: float) -> Iterator[None]:
 
 
 def _columns(stream: TextIO) -> int:
-    return columns_of(stream) or shutil.get_terminal_size().columns
+    return terminal_width(stream) or shutil.get_terminal_size().columns

@@ -2,25 +2,36 @@
 
 from __future__ import annotations
 
+import sys
 import time
 from collections.abc import Sequence
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
-from . import inputs, output_words, outputs, playing, results, told
-from .columns import counted
-from .errors import debug_option, one_line, stops_all, told_of, wrong_use
-from .masks import by_output, is_part, mask_option
-from .scripts import Source, is_script, source_of
-from .spelling import SeveralValues, of_today, spelled_out
+from . import loading, paths, progress, runlog
+from .errors import (
+    WrongUse,
+    debug_option,
+    failure_of,
+    is_debug,
+    killable,
+    one_line,
+    stops_all,
+)
+from .options import LAYER_HELP, force_option, mask_option, take_outputs
+from .paths import Job, Output, Script
+from .runlog import log
+from .text import counted, how_many_failed, step_results
 
 if TYPE_CHECKING:
+    import pymeshlab
+
+    from ..meshset.check import Call
+    from ..meshset.play import Played
     from ..mlx.steps import Step
-    from .jobs import Job
-    from .runlog import Log
 
 EXAMPLES = """\b
 A script:
@@ -41,56 +52,48 @@ Examples:
   meshlab-willmore run makes-a-sphere.mlx -o sphere.ply
   meshlab-willmore run clean.mlx -i scan.ply -o clean.ply --dry-run
 """
+_PLACEHOLDERS = ", ".join(f"{{{name}}} ({what})" for name, what in paths.PLACEHOLDERS.items())
 
 
-# The key in click's own notes on a call.
-_ORDER = "order of options"
+class RunOptions(NamedTuple):
+    """What is the same for all inputs of a run.
 
-
-class Orders(NamedTuple):
-    """What the command line asks for."""
+    Attributes
+    ----------
+    source : str
+        What messages call the script.
+    steps : tuple of Step
+        The script.
+    force, stop, dry_run : bool
+        The options of these names.
+    written : set of Path
+        The files that were written so far; changed in place.
+    """
 
     source: str
     steps: tuple[Step, ...]
-    parts: tuple[tuple[str, ...], ...]
-    layers: tuple[str, ...]
     force: bool
-    placed: set[Path]
     stop: bool
     dry_run: bool
+    written: set[Path]
 
 
-class RunCommand(SeveralValues):
-    """`run`, with several values after -i and -m; a script's name is never an input."""
-
-    several: ClassVar = {
-        "-i": lambda word: not is_script(word),
-        "--input": lambda word: not is_script(word),
-        "-m": is_part,
-        "--mask": is_part,
-    }
+class RunCommand(click.Command):
+    """`run`, which keeps its outputs with their masks and layers in ``ctx.obj``."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Take meshlabserver's spelling too, and note which -m stands behind which -o."""
-        words = of_today(output_words.without_empty_masks(args, is_script))
-        words = output_words.plain(words, is_script, is_part)
-        parser = self.make_parser(ctx)
-        *_, order = parser.parse_args(spelled_out(words, self.several))
-        ctx.meta[_ORDER] = [option.name for option in order]
-        return super().parse_args(ctx, words)
+        """Read the outputs, then let click read the rest."""
+        ctx.obj, rest = take_outputs(args, ctx)
+        return super().parse_args(ctx, rest)
 
 
 def _only_once(_: click.Context, option: click.Parameter, values: Sequence[str]) -> str | None:
-    """The value of an option that meshlabserver took several times, and of which one would win."""
+    """The value of an option that meshlabserver accepted several times, using one of them."""
     if len(values) > 1:
-        raise wrong_use(
+        raise WrongUse(
             f"--{option.opts[-1].lstrip('-')} is given {len(values)} times; give it once"
         )
     return values[0] if values else None
-
-
-def _placeholders() -> str:
-    return ", ".join(f"{{{name}}} ({what})" for name, what in outputs.PLACEHOLDERS.items())
 
 
 @click.command("run", cls=RunCommand, short_help="Run a filter script.", epilog=EXAMPLES)
@@ -102,7 +105,7 @@ def _placeholders() -> str:
     multiple=True,
     callback=_only_once,
     metavar="FILE",
-    help="The script, as meshlabserver had it.",
+    help="The script, as in meshlabserver.",
 )
 @click.option(
     "-i",
@@ -115,102 +118,97 @@ def _placeholders() -> str:
 @click.option(
     "-o",
     "--output",
-    "patterns",
-    multiple=True,
-    metavar="FILE",
-    help=f"Where the result goes; its ending tells the format. With {_placeholders()} in it, "
-    "several inputs have an output each.",
+    "output",
+    expose_value=False,
+    metavar="FILE...",
+    help="The output file; its ending determines the format. For several inputs, use a name with "
+    f"placeholders: {_PLACEHOLDERS}.",
 )
-@mask_option
+@mask_option(expose_value=False)
 @click.option(
     "--layer",
-    multiple=True,
+    expose_value=False,
     metavar="LAYER",
-    help=f"The layer that the -o before it saves: {output_words.MEANING}. -l just behind an -o is "
-    "the same.",
+    help=f"The layer that the -o before it saves: {LAYER_HELP}. An -l just behind an -o means the "
+    "same.",
 )
 @click.option(
     "--log",
+    "log_file",
     multiple=True,
     callback=_only_once,
     metavar="FILE",
-    help="Add what each step did to this file; - for the terminal. -l before every -o is the same.",
+    help="Append what each step did to this file; - for the terminal. An -l before every -o means "
+    "the same.",
 )
 @click.option(
     "--set",
     "settings",
     multiple=True,
     metavar="STEP.PARAM=VALUE",
-    help="Another value for a parameter; STEP is its number, or the filter's name.",
+    help="Change a parameter of the script; STEP is a step's number or the filter's name.",
 )
 @click.option(
-    "--layers", is_flag=True, help="All inputs are layers of one set, for filters of two meshes."
+    "--layers",
+    is_flag=True,
+    help="Load all inputs as layers of one set, for filters of two meshes.",
 )
-@click.option("--force", is_flag=True, help="Replace files that are there already.")
-@click.option("--stop", is_flag=True, help="End with the first input that fails.")
-@click.option("--dry-run", is_flag=True, help="Check all, read the inputs, and say what would be.")
+@force_option
+@click.option("--stop", is_flag=True, help="Stop at the first input that fails.")
+@click.option("--dry-run", is_flag=True, help="Check everything, read the inputs, write nothing.")
 @debug_option
-def command(script: str | None, also: str | None, **given: Any) -> None:
-    """Run a MeshLab filter script (.mlx) on meshes, and save what comes out.
+@click.pass_obj
+def command(
+    outputs: list[Output],
+    script: str | None,
+    also: str | None,
+    inputs: Sequence[str],
+    log_file: str | None,
+    settings: Sequence[str],
+    layers: bool,
+    force: bool,
+    stop: bool,
+    dry_run: bool,
+) -> None:
+    """Run a MeshLab filter script (.mlx) on meshes, and save the results.
 
-    The whole script is checked before its first step; it can come from a pipe, and - is the
-    standard input. An output is there when it is whole, not before. Several inputs are run one
-    after the other; if one fails or can't be read, the others go on, and the exit code is 1 in the
-    end. What loading or saving leaves out is told in a note.
+    The whole script is checked before its first step. It can come from a pipe; - is the standard
+    input. Output files are written atomically. Several inputs run one after the other; if one
+    fails, the others still run, and the exit code is 1. Notes say what was lost in loading or
+    saving.
 
-    With --layers the first input is the current layer, as in meshlabserver. One -o saves the mesh
-    that is current in the end; several save the first layers, in their order. An -l just behind
-    an -o names its layer. Several names behind one -o are outputs. Each -m is for the -o before
-    it; one before all of them is for all.
+    With --layers the first input is the current layer, as in meshlabserver. One -o saves the layer
+    that is current in the end; several save the first layers in their order. An -l just behind an
+    -o names its layer. Several names behind one -o are several outputs. Each -m is for the -o
+    before it, or for all outputs if it comes first.
 
-    MeshLab's window saves scripts ("Show current filter script"), and so does PyMeshLab; a short
-    one stands below. 'meshlab-willmore filters' has the names, 'lint' finds what is wrong.
+    MeshLab saves scripts in the window "Show current filter script", and PyMeshLab does too; a
+    short one is shown below. 'meshlab-willmore filters' lists the names, 'lint' checks a script.
     """
-    from . import jobs, runlog
-
     source = _script_of(script, also)
-    order = click.get_current_context().meta[_ORDER]
-    orders = Orders(
-        source.name,
-        _steps(source, given["settings"]),
-        tuple(by_output(order, given["parts"])),
-        tuple(output_words.by_output(order, given["layer"], given["patterns"])),
-        given["force"],
-        set(),
-        given["stop"],
-        given["dry_run"],
-    )
-    todo = jobs.plan(
-        inputs.asked_for(given["inputs"]), given["patterns"], given["layers"], orders.force
-    )
-    runlog.check(given["log"], [Path(source.name), *(file for job in todo for file in job.files)])
-    with (
-        runlog.opened(None if orders.dry_run else given["log"]) as log,
-        log.run_of(orders.source),
-    ):
-        _run_all(orders, todo, log)
+    options = RunOptions(source.name, _steps(source, settings), force, stop, dry_run, set())
+    jobs = paths.plan(paths.find_inputs(inputs), outputs, layers, force)
+    runlog.check(log_file, [Path(source.name), *(file for job in jobs for file in job.files)])
+    with runlog.opened(None if dry_run else log_file, source.name):
+        _run_all(options, jobs)
 
 
-def _script_of(script: str | None, also: str | None) -> Source:
+def _script_of(script: str | None, also: str | None) -> Script:
     if (script is None) == (also is None):
-        raise wrong_use(
-            "name the script once, such as: run clean.mlx -i scan.ply -o clean.ply"
-            if script
-            else "there is no script; name one, such as: run clean.mlx -i scan.ply -o clean.ply"
-        )
-    return source_of(script or also or "")
+        problem = "there is no script; name one" if script is None else "name the script once"
+        raise WrongUse(f"{problem}, such as: run clean.mlx -i scan.ply -o clean.ply")
+    return paths.read_script(script or also or "")
 
 
-def _steps(source: Source, settings: Sequence[str]) -> tuple[Step, ...]:
-    """The script, changed and checked as far as that is possible without meshes."""
+def _steps(source: Script, settings: Sequence[str]) -> tuple[Step, ...]:
+    """The script with its settings, checked as far as that is possible without meshes."""
     from ..mlx.steps import ScriptError
     from ..script import examined
     from .settings import with_settings
 
     found = source.examined()
-    if not found.reading.faults:
-        steps = with_settings(found.reading.steps, settings)
-        found = examined(steps) if settings else found
+    if settings and not found.reading.faults:
+        found = examined(with_settings(found.reading.steps, settings))
     if found.faults:
         raise ScriptError(source.name, found.faults)
     for warning in found.warnings:
@@ -219,44 +217,138 @@ def _steps(source: Source, settings: Sequence[str]) -> tuple[Step, ...]:
     return found.reading.steps
 
 
-def _run_all(orders: Orders, todo: Sequence[Job], log: Log) -> None:
-    debug = click.get_current_context().meta.get("debug", False)
-    ends_at_once = len(todo) == 1 or orders.stop or debug
-    failed = sum(not _succeeds(orders, job, log, ends_at_once) for job in todo)
+def _run_all(options: RunOptions, jobs: Sequence[Job]) -> None:
+    stops = len(jobs) == 1 or options.stop or is_debug()
+    failed = sum(not _succeeds(options, job, stops) for job in jobs)
     if failed:
-        raise click.ClickException(inputs.how_many_failed(failed, len(todo)))
+        raise click.ClickException(how_many_failed(failed, len(jobs)))
 
 
-def _succeeds(orders: Orders, job: Job, log: Log, ends_at_once: bool) -> bool:
+def _succeeds(options: RunOptions, job: Job, stops: bool) -> bool:
     try:
-        click.echo(_run_one(orders, job, log))
+        click.echo(_run_job(options, job))
     except Exception as error:
-        # A log that can't be written is no news beside what went wrong before.
+        # This error is more important than one of the log.
         with suppress(OSError):
-            log.say(f"error: {one_line(error)}")
-        if ends_at_once or stops_all(error):
+            log.info("error: %s", one_line(error))
+        if stops or stops_all(error):
             raise
-        click.echo(f"Error: {told_of(job.name, error)}", err=True)
+        click.echo(f"Error: {failure_of(job.name, error)}", err=True)
         return False
     return True
 
 
-def _run_one(orders: Orders, job: Job, log: Log) -> str:
-    """Run the script on one set of meshes; returns lines that say what was done."""
+def _run_job(options: RunOptions, job: Job) -> str:
+    """Run the script on the inputs of a job; returns the lines to print."""
     from ..meshset.check import resolve
 
-    if job.refusal is not None:
-        raise job.refusal
+    if job.problem is not None:
+        raise job.problem
     start = time.perf_counter()
-    ms = results.loaded(job, log)
-    calls = resolve(orders.steps, orders.source, [mesh.id() for mesh in ms])
-    if orders.dry_run:
-        there = " and ".join(map(str, job.outputs)) or "no file"
-        return f"{job.name}: fine; {counted(len(calls), 'step')} to run, then {there} to write"
-    played = playing.play(ms, calls, orders.source, Path(job.name).name, log)
-    saved = results.save(
-        ms, job, results.Wishes(orders.parts, orders.layers, orders.force, orders.placed), log
-    )
+    ms = _load(job)
+    calls = resolve(options.steps, options.source, [mesh.id() for mesh in ms])
+    if options.dry_run:
+        files = " and ".join(output.name for output in job.outputs) or "no file"
+        return f"{job.name}: ok; {counted(len(calls), 'step')} to run, then {files} to write"
+    played = play(ms, calls, options.source, Path(job.name).name)
+    saved = _save(ms, job, options)
     seconds = time.perf_counter() - start
     line = f"{job.name} -> {saved}: {counted(len(calls), 'step')}, {seconds:.1f} s"
-    return "\n".join([line, *told.steps(played)])
+    return "\n".join([line, *step_results(played)])
+
+
+def _load(job: Job) -> pymeshlab.MeshSet:
+    """The inputs as layers of one set; the first is current, as in `meshlabserver`."""
+    with progress.shown(job.name) as status:
+        status.begin("reading")
+        ms = loading.loaded(
+            *job.inputs, after=lambda ms, path: log.info("input %s (%s)", path, _size(ms))
+        )
+    if len(job.inputs) > 1:
+        ms.set_current_mesh(0)
+    return ms
+
+
+def play(ms: pymeshlab.MeshSet, calls: Sequence[Call], source: str, label: str) -> list[Played]:
+    """Run the steps; the filters themselves print nothing.
+
+    Parameters
+    ----------
+    source, label : str
+        What errors call the script, and what progress calls the input.
+    """
+    from ..meshset import play as steps
+    from ..meshset.native import muted
+
+    # The streams are restored before an error of a step is printed.
+    with progress.shown(label, len(calls)) as status, ExitStack() as quiet:
+
+        def before(call: Call) -> None:
+            status.hide()
+            runlog.log_call(call, len(calls))
+            status.next(call.known.name)
+            sys.stdout.flush()
+            if call.known.is_willmore:
+                quiet.enter_context(progress.with_details(status))
+            else:
+                # No output is begun before the last step has ended.
+                quiet.enter_context(killable())
+            quiet.enter_context(muted())
+
+        def after(played: Played) -> None:
+            quiet.close()
+            status.hide()
+            runlog.log_result(played)
+
+        return steps.play(ms, calls, source, before, after)
+
+
+def _save(ms: pymeshlab.MeshSet, job: Job, options: RunOptions) -> str:
+    """Save the layers of a job's outputs; returns which files were written.
+
+    Raises
+    ------
+    OSError
+        In one line, if there is not a layer for each output, or one can't be written.
+    """
+    from .saving import SaveOptions, save
+
+    if not job.outputs:
+        return "not saved (no -o)"
+    if ms.mesh_number() == 0:
+        raise OSError(f"cannot write {job.outputs[0].name}: the script leaves no mesh")
+    layers = _layers(ms, job)
+    origin = job.inputs[0].parent if job.inputs else None
+    texts = []
+    for output, layer in zip(job.outputs, layers, strict=True):
+        ms.set_current_mesh(layer)
+        with progress.shown(job.name) as status:
+            status.begin(f"saving {output.path}")
+            how = SaveOptions(output.parts, options.force, origin, options.written)
+            files = save(ms, output.path, how)
+        log.info("output %s (%s)", " ".join(map(str, files)), _size(ms))
+        texts.append(f"{output.path} ({_size(ms)})")
+    return ", ".join(texts)
+
+
+def _layers(ms: pymeshlab.MeshSet, job: Job) -> list[int]:
+    """The id of the layer for each output."""
+    current, layers = ms.current_mesh().id(), [mesh.id() for mesh in ms]
+    left = counted(len(layers), "layer")
+    chosen = [output.layer for output in job.outputs]
+    if any(chosen):
+        highest = max((int(layer) for layer in chosen if layer.isdecimal()), default=0)
+        if highest >= len(layers):
+            raise OSError(f"there is no layer {highest}: the script leaves {left}, from 0")
+        ends = {"c": current, "x": layers[-1]}
+        return [ends[layer] if layer in ends else layers[int(layer)] for layer in chosen]
+    if len(chosen) == 1:
+        return [current]
+    if len(chosen) > len(layers):
+        raise OSError(f"{len(chosen)} outputs, but the script leaves {left}")
+    return layers[: len(chosen)]
+
+
+def _size(ms: pymeshlab.MeshSet) -> str:
+    mesh = ms.current_mesh()
+    return f"{mesh.vertex_number()} vertices, {mesh.face_number()} faces"

@@ -1,4 +1,4 @@
-"""Saving a mesh so that it appears whole, with its material and textures, or not at all.
+"""Saving a mesh with its material and textures: output files are written atomically.
 
 PyMeshLab writes into a hidden folder beside the target, and what it wrote is renamed in the end:
 first the files beside the mesh, then the mesh.
@@ -8,101 +8,108 @@ from __future__ import annotations
 
 import filecmp
 import os
+import re
+import shutil
+import tempfile
 from collections.abc import Iterable
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..files import folder_beside, put, refuse_special
-from . import attributes, notes, textures, unheld
+from . import formats
 from .errors import reason
-from .masks import TEXTURED, keywords, not_held
+from .losses import ply_header
+from .text import note
 
 if TYPE_CHECKING:
     import pymeshlab
 
-# Where a writer had to stop, not even so much more goes into its file.
+# A writer that ran out of room leaves less than this.
 _ROOM = 65536
+# The parts of a mask with which textures are saved.
+_TEXTURED = frozenset({"vt", "wt"})
+_WEDGE_KEYWORD = formats.PARTS["wt"][0]
+# Qt's quality of a PNG is how little it is compressed.
+_FASTEST = 100
+# PyMeshLab's keywords of custom attributes: v or f, s or p, then the name in small letters.
+_ATTRIBUTE = re.compile(r"__ca_[vf][sp]__(.*)", re.DOTALL)
 
 
-class Wish(NamedTuple):
-    """How a mesh is to be saved.
+class SaveOptions(NamedTuple):
+    """How a mesh is saved.
 
     Attributes
     ----------
     parts : tuple of str
-        The short names of `masks`; empty for what PyMeshLab saves of itself.
+        The parts to save, as in `formats.PARTS`; empty for what PyMeshLab saves by default.
     force : bool
-        Replace files that are there.
+        Overwrite existing files.
     origin : Path or None
-        The folder of the input: textures that are still as they were there are copied.
-    placed : set of Path or None
-        What was written before in this run, and is not replaced by something else; what is
-        written is added.
+        The folder of the input, from which unchanged textures are copied.
+    written : set of Path or None
+        What this run has written, which no other output replaces; the new files are added.
     """
 
     parts: tuple[str, ...] = ()
     force: bool = False
     origin: Path | None = None
-    placed: set[Path] | None = None
+    written: set[Path] | None = None
 
 
-def save(ms: pymeshlab.MeshSet, path: Path, wish: Wish) -> list[Path]:
+def save(ms: pymeshlab.MeshSet, path: Path, options: SaveOptions) -> list[Path]:
     """Save the current mesh of `ms`; returns the files that were written, the mesh first.
 
     Raises
     ------
     OSError
-        In one line: the file, and what is wrong. What was there before is as it was.
+        In one line: the file, and what is wrong. Files that existed before are unchanged.
     """
     ending = path.suffix.lstrip(".")
-    if note := not_held(wish.parts, ending):
-        notes.tell(note)
+    if missing := formats.not_held(options.parts, ending):
+        note(missing)
     with folder_beside(path) as folder:
-        images = _textures(ms, path, wish)
-        draft = _inside(folder, images) / path.name
-        _write(ms, draft, path, wish)
+        images = _textures(ms, path, options)
+        draft = _deep_folder(folder, images) / path.name
+        _write(ms, draft, path, options)
         for name, image in images.items():
-            folders = (path.parent, wish.origin) if wish.origin else (path.parent,)
-            textures.write(image, draft.parent / name, [place / name for place in folders])
+            folders = (path.parent, options.origin) if options.origin else (path.parent,)
+            write_texture(image, draft.parent / name, [place / name for place in folders])
         moves = _moves(folder, draft, path)
         for source, target in moves:
-            _check_whole(source, target)
-        _check_free(moves, path, wish)
-        for loss in unheld.losses(ms, draft, ending.lower(), bool(wish.parts)):
-            notes.tell(f"{path}: {loss}")
-        _place(moves)
-    if wish.placed is not None:
-        wish.placed.update(target.resolve() for _, target in moves)
+            _check_complete(source, target)
+        _check_free(moves, path, options)
+        for loss in formats.losses(ms, draft, ending.lower(), bool(options.parts)):
+            note(f"{path}: {loss}")
+        _rename_all(moves)
+    if options.written is not None:
+        options.written.update(target.resolve() for _, target in moves)
     return [target for _, target in reversed(moves)]
 
 
-def _textures(ms: pymeshlab.MeshSet, path: Path, wish: Wish) -> dict[str, pymeshlab.Image]:
-    wanted = not wish.parts or TEXTURED & set(wish.parts)
-    return textures.of(ms, path.suffix.lstrip(".")) if wanted else {}
+def _write(ms: pymeshlab.MeshSet, draft: Path, path: Path, options: SaveOptions) -> None:
+    """Write the current mesh at `draft`; errors name `path`."""
+    from ..meshset import native
 
-
-def _inside(folder: Path, names: Iterable[str]) -> Path:
-    """A folder so deep that ``..`` in the name of a texture stays inside `folder`."""
-    upwards = max((PurePosixPath(name).parts.count("..") for name in names), default=0)
-    deep = folder.joinpath(*["mesh"] * upwards)
-    deep.mkdir(parents=True, exist_ok=True)
-    return deep
-
-
-def _write(ms: pymeshlab.MeshSet, draft: Path, path: Path, wish: Wish) -> None:
-    """Write the current mesh at `draft`; errors call it `path`."""
-    if wish.parts:
-        _write_with(ms, draft, path, keywords(wish.parts, path.suffix.lstrip(".")))
+    if options.parts:
+        _write_with(ms, draft, path, formats.keywords(options.parts, path.suffix.lstrip(".")))
         return
-    custom = attributes.of(ms)
+    # PyMeshLab saves custom attributes only if each is named, and only as PLY.
+    custom = [key for key in native.defaults(ms, "ply") if _ATTRIBUTE.fullmatch(key)]
     if custom and path.suffix.lower() != ".ply":
-        notes.tell(f"{path.suffix} files hold no custom attributes")
-        custom = ()
+        note(f"{path.suffix} files hold no custom attributes")
+        custom = []
     _write_with(ms, draft, path, dict.fromkeys(custom, True))
-    odd = attributes.odd(draft, custom) if custom else ()
-    if odd:
-        notes.tell("custom attributes with odd names are not saved")
-        _write_with(ms, draft, path, {key: True for key in custom if key not in odd})
+    if custom:
+        names = {_simplified(found.name) for found in ply_header(draft).properties}
+        sound = [key for key in custom if _simplified(_ATTRIBUTE.sub(r"\1", key)) in names]
+        if sound != custom:
+            note("custom attributes with odd names are not saved")
+            _write_with(ms, draft, path, dict.fromkeys(sound, True))
+
+
+def _simplified(name: str) -> str:
+    """The name without what PyMeshLab's keywords leave out or replace."""
+    return re.sub(r"[\W_]", "", name.lower())
 
 
 def _write_with(ms: pymeshlab.MeshSet, draft: Path, path: Path, flags: dict[str, bool]) -> None:
@@ -118,9 +125,22 @@ def _write_with(ms: pymeshlab.MeshSet, draft: Path, path: Path, flags: dict[str,
     if not draft.is_file() or draft.stat().st_size == 0:
         why = why or f"PyMeshLab wrote no {path.suffix} file"
     else:
-        _check_whole(draft, path)
+        _check_complete(draft, path)
     if why:
         raise OSError(f"cannot write {path}: {why}")
+
+
+def _check_complete(source: Path, target: Path) -> None:
+    """Raise if the disk is full: many of PyMeshLab's writers stop early without an error."""
+    try:
+        with source.open("ab") as file:
+            size = file.tell()
+            file.write(bytes(_ROOM))
+            file.flush()
+            os.fsync(file.fileno())
+            file.truncate(size)
+    except OSError as error:
+        raise OSError(f"cannot write {target}: {error.strerror}") from error
 
 
 def _moves(folder: Path, draft: Path, path: Path) -> list[tuple[Path, Path]]:
@@ -133,49 +153,126 @@ def _moves(folder: Path, draft: Path, path: Path) -> list[tuple[Path, Path]]:
     return [*moves, (draft, path)]
 
 
-def _check_whole(source: Path, target: Path) -> None:
-    """Raise if the writer may have run out of room: many of PyMeshLab's don't tell.
-
-    One that stopped early left no room behind what it wrote.
-    """
-    try:
-        with source.open("ab") as file:
-            size = file.tell()
-            file.write(bytes(_ROOM))
-            file.flush()
-            os.fsync(file.fileno())
-            file.truncate(size)
-    except OSError as error:
-        raise OSError(f"cannot write {target}: {error.strerror}") from error
-
-
-def _check_free(moves: list[tuple[Path, Path]], path: Path, wish: Wish) -> None:
-    """Raise if a file of somebody else would be replaced without `force`, or what is no file."""
+def _check_free(moves: list[tuple[Path, Path]], path: Path, options: SaveOptions) -> None:
+    """Raise if a file would be replaced without `force`, or something that is no file."""
     for source, target in moves:
         refuse_special(target)
-        if target.is_file() and filecmp.cmp(source, target, shallow=False) and target != path:
+        if target != path and target.is_file() and filecmp.cmp(source, target, shallow=False):
             continue
-        if wish.placed and target.resolve() in wish.placed:
+        if options.written and target.resolve() in options.written:
             raise OSError(
-                f"cannot write {path}: {target} is that of another output; give each a folder"
+                f"cannot write {path}: {target} belongs to another output; use different folders"
             )
-        if os.path.lexists(target) and not wish.force:
-            raise FileExistsError(f"cannot write {path}: {target} is there; --force replaces it")
+        if os.path.lexists(target) and not options.force:
+            raise FileExistsError(
+                f"cannot write {path}: {target} already exists; use --force to overwrite"
+            )
 
 
-def _place(moves: list[tuple[Path, Path]]) -> None:
-    """Rename all, or take back what is new."""
+def _rename_all(moves: list[tuple[Path, Path]]) -> None:
+    """Rename all files to their places; after an error remove those that are new."""
     from ..meshset import interrupts
 
-    placed: list[Path] = []
+    new: list[Path] = []
     with interrupts.deferred():
         try:
             for source, target in moves:
                 target.parent.mkdir(parents=True, exist_ok=True)
                 is_new = not os.path.lexists(target)
                 put(source, target)
-                placed += [target] if is_new else []
+                new += [target] if is_new else []
         except OSError as error:
-            for new in placed:
-                new.unlink(missing_ok=True)
+            for file in new:
+                file.unlink(missing_ok=True)
             raise OSError(f"cannot write {target}: {error.strerror}") from error
+
+
+# --- textures ----------------------------------------------------------------------------------
+
+
+def _textures(
+    ms: pymeshlab.MeshSet, path: Path, options: SaveOptions
+) -> dict[str, pymeshlab.Image]:
+    """The images, by name, that are saved beside the current mesh."""
+    mesh = ms.current_mesh()
+    is_mapped = mesh.has_wedge_tex_coord() or mesh.has_vertex_tex_coord()
+    is_wanted = not options.parts or _TEXTURED & set(options.parts)
+    # PyMeshLab would write the images for formats without coordinates too.
+    if not (is_wanted and is_mapped and formats.holds(path.suffix.lstrip("."), _WEDGE_KEYWORD)):
+        return {}
+    # A texture that was not found has no size; an absolute name needs no copy.
+    return {
+        name: image
+        for name, image in mesh.textures().items()
+        if image.width() and not Path(name).is_absolute()
+    }
+
+
+def _deep_folder(folder: Path, names: Iterable[str]) -> Path:
+    """A folder so deep that ``..`` in the name of a texture stays inside `folder`."""
+    upwards = max((PurePosixPath(name).parts.count("..") for name in names), default=0)
+    deep = folder.joinpath(*["mesh"] * upwards)
+    deep.mkdir(parents=True, exist_ok=True)
+    return deep
+
+
+def write_texture(image: pymeshlab.Image, file: Path, originals: Iterable[Path]) -> None:
+    """Write an image, or copy the first of the originals that has the same pixels.
+
+    A JPEG that is written again would lose some of it, and PyMeshLab does not write every format
+    that it reads.
+
+    Raises
+    ------
+    OSError
+        If neither is possible.
+    """
+    file.parent.mkdir(parents=True, exist_ok=True)
+    drawn = _as_png(image, file)
+    for original in originals:
+        if original.is_file() and _has_pixels_of(original, drawn):
+            shutil.copyfile(original, file)
+            drawn.unlink()
+            return
+    if file.suffix.lower() == ".bmp":
+        image.save(str(file))
+        drawn.unlink()
+    else:
+        # PyMeshLab always writes PNG; readers look at the content, not at the name.
+        image.save(str(drawn))
+        drawn.replace(file)
+
+
+def _as_png(image: pymeshlab.Image, beside: Path) -> Path:
+    from ..meshset import native
+
+    path = beside.with_name(beside.name + ".png")
+    try:
+        with native.muted():
+            image.save(str(path), _FASTEST)
+    except native.ERRORS as error:
+        raise OSError(f"cannot write the texture {beside.name}; is the disk full?") from error
+    return path
+
+
+def _has_pixels_of(file: Path, drawn: Path) -> bool:
+    """Whether a file holds the image of the PNG `drawn`; PyMeshLab gives no access to pixels."""
+    import numpy as np
+    import pymeshlab
+
+    from ..meshset import native
+
+    unreadable: tuple[type[Exception], ...] = (*native.ERRORS, ValueError)
+    ms = pymeshlab.MeshSet()
+    native.add(ms, pymeshlab.Mesh(np.eye(3), [[0, 1, 2]], w_tex_coords_matrix=np.zeros((3, 2))))
+    with tempfile.TemporaryDirectory(dir=drawn.parent) as folder:
+        copy = Path(folder) / "copy.png"
+        try:
+            with native.muted():
+                native.apply(ms, "set_texture_per_mesh", textname=str(file))
+            (image,) = ms.current_mesh().textures().values()
+            image.save(str(copy), _FASTEST)
+        except unreadable:
+            native.forget_failures()
+            return False
+        return filecmp.cmp(drawn, copy, shallow=False)

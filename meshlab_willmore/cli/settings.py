@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from .errors import wrong_use
+from .errors import WrongUse
 
 if TYPE_CHECKING:
     from ..meshset.catalogue import FilterInfo, ParamInfo
@@ -48,7 +48,7 @@ def _parsed(text: str) -> Setting:
     target, equals, value = text.partition("=")
     step, dot, param = target.rpartition(".")
     if not (equals and dot and step.strip() and param.strip()):
-        raise wrong_use(f"--set {text}: it must be STEP.PARAM=VALUE, such as 2.TargetPerc=0.5")
+        raise WrongUse(f"--set {text}: it must be STEP.PARAM=VALUE, such as 2.TargetPerc=0.5")
     return Setting(text, step.strip(), param.strip(), value)
 
 
@@ -59,7 +59,7 @@ def _place(steps: Sequence[Step], setting: Setting) -> int:
     if setting.step.isascii() and setting.step.isdigit():
         number = int(setting.step)
         if not 1 <= number <= len(steps):
-            raise wrong_use(f"--set {setting.written}: the script has steps 1 to {len(steps)}")
+            raise WrongUse(f"--set {setting.written}: the script has steps 1 to {len(steps)}")
         return number - 1
     wanted = find(setting.step)
     found = ((i, find(step.filter)) for i, step in enumerate(steps))
@@ -68,12 +68,12 @@ def _place(steps: Sequence[Step], setting: Setting) -> int:
         return places[0]
     if places:
         numbers = ", ".join(str(i + 1) for i in places)
-        raise wrong_use(
+        raise WrongUse(
             f"--set {setting.written}: {setting.step} is in the script {len(places)} times; "
             f"name the step by its number ({numbers})"
         )
     there = ", ".join(dict.fromkeys(step.filter for step in steps))
-    raise wrong_use(f"--set {setting.written}: the script has no {setting.step}, only {there}")
+    raise WrongUse(f"--set {setting.written}: the script has no {setting.step}, only {there}")
 
 
 def _changed(step: Step, setting: Setting) -> Step:
@@ -86,7 +86,7 @@ def _changed(step: Step, setting: Setting) -> Step:
         return step
     param = known.param(setting.param) or _renamed(known, setting.param)
     if param is None:
-        raise wrong_use(f"--set {setting.written}: {_no_such_parameter(known, setting.param)}")
+        raise WrongUse(f"--set {setting.written}: {_no_such_parameter(known, setting.param)}")
     new = Param(param.name, param.type, _value(param, setting))
     kept: list[Param] = []
     replaced = False
@@ -136,5 +136,5 @@ def _value(param: ParamInfo, setting: Setting) -> Value:
         value = rich.parse_text(param.type, setting.value)
     except ValueError as error:
         choices = f"; the choices are {', '.join(param.choices)}" if param.choices else ""
-        raise wrong_use(f"--set {setting.written}: {error}{choices}") from error
+        raise WrongUse(f"--set {setting.written}: {error}{choices}") from error
     return value

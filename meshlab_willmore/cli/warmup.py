@@ -1,4 +1,4 @@
-"""`meshlab-willmore warmup`: everything compiled ahead."""
+"""`meshlab-willmore warmup`: compile everything in advance."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ import sys
 import click
 
 from . import progress
-from .columns import counted
 from .errors import debug_option
+from .text import counted
 
 EXAMPLES = """\b
 Examples:
@@ -17,19 +17,14 @@ Examples:
 """
 
 
-def is_terminal() -> bool:
-    """Whether somebody looks on."""
-    return sys.stderr.isatty()
-
-
-@click.command("warmup", short_help="Compile everything ahead, once.", epilog=EXAMPLES)
+@click.command("warmup", short_help="Compile everything in advance.", epilog=EXAMPLES)
 @debug_option
 def command() -> None:
-    """Compile all that the filters need, so that no later run has to wait for that.
+    """Compile everything that the filters need, so that no later run has to wait for it.
 
-    Numba keeps the machine code in a folder of the user, or in NUMBA_CACHE_DIR, which then has to
-    be set for later runs too. It takes some minutes the first time, and seconds when all is there.
-    'meshlab-willmore doctor' tells whether it is done.
+    Numba keeps the machine code in a folder of the user, or in NUMBA_CACHE_DIR, which must then be
+    set for later runs too. This takes some minutes the first time, and seconds when everything is
+    compiled. 'meshlab-willmore doctor' shows whether it is.
     """
     from .. import quick_start
 
@@ -38,11 +33,13 @@ def command() -> None:
     from ..warmup import steps, warm_up
 
     def say(line: str) -> None:
-        if is_terminal():
+        if sys.stderr.isatty():
             click.echo(line, err=True)
 
     with progress.shown("warmup", len(steps())) as status, progress.with_details(status):
-        status.next("all that is not compiled yet")
+        status.next("everything that is not compiled yet")
         done = warm_up(say, core_count(), lambda name: status.next(f"done with {name}"))
-    what = f"{counted(done.compiled, 'kernel')} compiled" if done.compiled else "all is there"
+    what = f"{counted(done.compiled, 'kernel')} compiled"
+    if not done.compiled:
+        what = "everything was compiled already"
     click.echo(f"{what}, in {done.seconds:.1f} s: {done.folder}")

@@ -1,5 +1,6 @@
 """What the commands' tests share: a way to call them, meshes in files, scripts."""
 
+import io
 import os
 import subprocess
 import sys
@@ -86,6 +87,13 @@ def piped(data):
     os.close(start)
     yield f"/dev/fd/{end}"
     os.close(end)
+
+
+class Terminal(io.StringIO):
+    """A standard error that is a terminal."""
+
+    def isatty(self):
+        return True
 
 
 def cube_file(path="cube.ply"):

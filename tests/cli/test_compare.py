@@ -7,7 +7,7 @@ import pymeshlab
 import pytest
 
 import meshlab_willmore
-from meshlab_willmore.cli import compare, trials
+from meshlab_willmore.cli import compare, compare_row
 from meshlab_willmore.cli.progress import Status
 from meshlab_willmore.compare import contenders
 from meshlab_willmore.compare.figures import Figures
@@ -36,12 +36,12 @@ def rows(monkeypatch):
     becomes = {}
 
     def run(task, contender, say):
-        say(trials.RUNNING)
+        say(compare_row.RUNNING)
         ran[contender.name] = (task, contender)
-        done = trials.Outcome(0.125 if contender.filter else None, SOME._asdict())
+        done = compare_row.Outcome(0.125 if contender.filter else None, SOME._asdict())
         return becomes.get(contender.name, done)
 
-    monkeypatch.setattr(trials, "run", run)
+    monkeypatch.setattr(compare_row, "run", run)
     ran["becomes"] = becomes
     return ran
 
@@ -89,8 +89,8 @@ def assert_row(row, vertices, before, faces):
 
 
 def test_the_table_is_laid_out_exactly(cube, rows):
-    rows["becomes"][NAMES[1]] = trials.Outcome(timed_out=True)
-    rows["becomes"][NAMES[2]] = trials.Outcome(error="crashed (SIGSEGV)")
+    rows["becomes"][NAMES[1]] = compare_row.Outcome(timed_out=True)
+    rows["becomes"][NAMES[2]] = compare_row.Outcome(error="crashed (SIGSEGV)")
     result = call("compare", cube, *CHOSEN, "--timeout", "1.5")
     assert shown(result)[:6] == [
         "                             flips        W     area      |K|        M  worst   mean"
@@ -110,7 +110,7 @@ def test_the_table_is_laid_out_exactly(cube, rows):
 
 
 def test_a_filter_that_is_too_slow_is_no_failure(cube, rows):
-    rows["becomes"][NAMES[1]] = trials.Outcome(timed_out=True)
+    rows["becomes"][NAMES[1]] = compare_row.Outcome(timed_out=True)
     result = call("compare", cube, *CHOSEN, "--json")
     assert (result.exit_code, result.stderr) == (0, "")
     row = json.loads(result.stdout)[1]
@@ -120,9 +120,9 @@ def test_a_filter_that_is_too_slow_is_no_failure(cube, rows):
 
 def test_a_reference_adds_two_columns(cube, rows):
     figures = SOME._replace(normal_error=9.634, distance=0.0156789)._asdict()
-    rows["becomes"]["initial"] = trials.Outcome(None, figures)
+    rows["becomes"]["initial"] = compare_row.Outcome(None, figures)
     nan = SOME._replace(normal_error=1.0, distance=float("nan"))._asdict()
-    rows["becomes"][NAMES[1]] = trials.Outcome(2.0, nan)
+    rows["becomes"][NAMES[1]] = compare_row.Outcome(2.0, nan)
     arguments = ("compare", cube, *CHOSEN, "--reference", "torus:3,1")
     result = call(*arguments)
     header, _, initial, own, *_ = shown(result)
@@ -131,7 +131,7 @@ def test_a_reference_adds_two_columns(cube, rows):
     assert own.split()[-3:] == ["3", "1.00", "2.00"]
     assert "normal: mean angle" in result.stdout
     (task, _) = rows["initial"]
-    assert task == trials.Task("cube.ply", "torus:3,1", 60.0)
+    assert task == compare_row.Comparison("cube.ply", "torus:3,1", 60.0)
     assert json.loads(call(*arguments, "--json").stdout)[1]["distance"] is None
 
 
@@ -186,7 +186,9 @@ def test_help_leaves_out_what_is_the_same_for_all():
 
 
 def test_debug_shows_the_traceback_of_a_row(cube, rows):
-    rows["becomes"][NAMES[1]] = trials.Outcome(error="no luck", trace="Traceback of bad luck\n")
+    rows["becomes"][NAMES[1]] = compare_row.Outcome(
+        error="no luck", trace="Traceback of bad luck\n"
+    )
     arguments = ("compare", cube, *CHOSEN)
     assert "Traceback" not in call(*arguments).stderr
     assert "Traceback of bad luck\n\nError: " in call(*arguments, "--debug").stderr
@@ -196,12 +198,12 @@ def test_what_a_row_does_is_told():
     status = Status("cube.ply", 2, lambda: 0.0)
     status.next("initial: reading")
     status.next("greedy, area: reading")
-    compare._show(status, "greedy, area", trials.RUNNING)
+    compare._show_phase(status, "greedy, area", compare_row.RUNNING)
     assert status.line(80) == "cube.ply  [########--------]  50%  greedy, area: running, 0 s"
 
 
 def test_a_mesh_that_cannot_be_measured_ends_it(cube, rows):
-    rows["becomes"]["initial"] = trials.Outcome(error="there is something wrong")
+    rows["becomes"]["initial"] = compare_row.Outcome(error="there is something wrong")
     result = call("compare", cube, "--json")
     assert (result.exit_code, result.stdout) == (1, "")
     assert result.stderr == "Error: cube.ply: there is something wrong\n"
@@ -232,7 +234,7 @@ def test_failures_are_one_line(cube, arguments, line):
     [
         ([], "Missing argument 'IN'."),
         (["cub.ply"], "there is no file cub.ply; there is cube.ply"),
-        (["*.ply"], "*.ply stands for 2 files; compare takes one"),
+        (["*.ply"], "*.ply matches 2 files; compare takes one"),
         (["cube.ply", "--energy", "x"], "Invalid value for '--energy': 'x' is not one"),
         (["cube.ply", "--search", "x"], "Invalid value for '--search': 'x' is not "),
         (["cube.ply", "--timeout", "0"], "Invalid value for '--timeout': 0.0 is not in the range"),

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from meshlab_willmore import machine
-from meshlab_willmore.cli import checks, probe
-from meshlab_willmore.cli.checks import Finding
+from meshlab_willmore.cli import doctor
+from meshlab_willmore.cli.doctor import Finding
 from meshlab_willmore.meshset import catalogue
 
 from .conftest import call
@@ -26,31 +26,31 @@ def on_debian(monkeypatch):
 
 
 def answering(monkeypatch, values, printed=""):
-    monkeypatch.setattr(probe, "ask", lambda _: probe.Answer(values, printed))
+    monkeypatch.setattr(doctor, "ask", lambda _: doctor.Answer(values, printed))
 
 
 # The command
 
 
 def test_a_fit_machine(monkeypatch):
-    monkeypatch.setattr(checks, "ALL", (lambda: Finding("one", True, "is fine"),))
+    monkeypatch.setattr(doctor, "CHECKS", (lambda: Finding("one", True, "is fine"),))
     result = call("doctor")
-    assert (result.exit_code, result.stdout) == (0, "ok   one: is fine\nThis machine is fit.\n")
+    assert (result.exit_code, result.stdout) == (0, "ok   one: is fine\nAll checks passed.\n")
 
 
 def test_a_problem_has_its_cure(monkeypatch):
     bad = Finding("two", False, "is gone", "apt-get install two")
-    monkeypatch.setattr(checks, "ALL", (lambda: Finding("one", True, "is fine"), lambda: bad))
+    monkeypatch.setattr(doctor, "CHECKS", (lambda: Finding("one", True, "is fine"), lambda: bad))
     result = call("doctor")
     assert (result.exit_code, result.stdout) == (
         1,
-        "ok   one: is fine\nBAD  two: is gone\n     mend it: apt-get install two\n"
+        "ok   one: is fine\nBAD  two: is gone\n     fix: apt-get install two\n"
         "1 of 2 checks failed\n",
     )
     result = call("doctor", "--json")
     assert result.exit_code == 1
     assert json.loads(result.stdout) == {
-        "fit": False,
+        "ok": False,
         "findings": [
             {"name": "one", "ok": True, "text": "is fine", "cure": ""},
             {"name": "two", "ok": False, "text": "is gone", "cure": "apt-get install two"},
@@ -64,8 +64,8 @@ def test_this_machine_is_fit():
     result = call("doctor", "--json")
     assert result.exit_code == 0, result.stdout
     report = json.loads(result.stdout)
-    assert report["fit"] is True
-    assert len(report["findings"]) == len(checks.ALL)
+    assert report["ok"] is True
+    assert len(report["findings"]) == len(doctor.CHECKS)
     numba = next(f for f in report["findings"] if f["name"] == "Numba")
     assert numba["text"].startswith("compiles; threads: ")
 
@@ -85,11 +85,11 @@ def without_gl(tmp_path, monkeypatch):
 
 
 def test_a_missing_library_is_named(without_gl, on_debian):
-    finding = checks.pymeshlab()
+    finding = doctor.pymeshlab()
     assert finding == Finding(
         "PyMeshLab", False, "can't be loaded: libGL.so.1 is missing or broken", APT
     )
-    finding = checks.filters()
+    finding = doctor.filters()
     assert not finding.ok
     assert "libGL.so.1" in finding.text
 
@@ -101,37 +101,37 @@ def test_plugins_that_did_not_load_and_their_filters(tmp_path, monkeypatch, on_d
         pytest.skip("other versions have other plugins")
     (tmp_path / "libOpenGL.so.0").write_text("no library")
     monkeypatch.setenv("LD_LIBRARY_PATH", str(tmp_path))
-    finding = checks.pymeshlab()
+    finding = doctor.pymeshlab()
     assert (finding.ok, finding.cure) == (False, APT)
     assert "filter_meshing" in finding.text
     assert "(libOpenGL.so.0 can't be loaded)" in finding.text
-    finding = checks.filters()
+    finding = doctor.filters()
     assert (finding.ok, finding.cure) == (False, APT)
-    assert "of PyMeshLab's filters are gone: " in finding.text
+    assert "of PyMeshLab's filters are missing: " in finding.text
     assert finding.text.endswith(" more")
 
 
 def test_without_a_known_installer_all_commands_are_told(without_gl, monkeypatch):
     monkeypatch.setattr(shutil, "which", lambda _: None)
-    assert checks.pymeshlab().cure == f"{APT} or dnf install mesa-libGL libglvnd-opengl"
+    assert doctor.pymeshlab().cure == f"{APT} or dnf install mesa-libGL libglvnd-opengl"
 
 
 def test_filters_of_another_version_are_no_fault(monkeypatch):
     values = {"registered": True, "missing": ["a"], "version": "2023.12", "recorded": "2025.7"}
     answering(monkeypatch, values)
-    finding = checks.filters()
+    finding = doctor.filters()
     assert finding.ok
     assert finding.text.endswith(
-        "1 of PyMeshLab's filters are gone: a (this is PyMeshLab 2023.12; the list is that of "
+        "1 of PyMeshLab's filters are missing: a (this is PyMeshLab 2023.12; the list is that of "
         "2025.7)"
     )
     answering(monkeypatch, {**values, "version": "2025.7"})
-    assert not checks.filters().ok
+    assert not doctor.filters().ok
 
 
 def test_another_failure_of_the_import(monkeypatch):
     answering(monkeypatch, {}, "Traceback\nImportError: numpy is too old")
-    finding = checks.pymeshlab()
+    finding = doctor.pymeshlab()
     assert not finding.ok
     assert finding.text == "can't be loaded: ImportError: numpy is too old"
     assert "pip install --force-reinstall" in finding.cure
@@ -143,7 +143,7 @@ def test_another_failure_of_the_import(monkeypatch):
 def test_numba_that_cannot_compile(monkeypatch):
     monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
     answering(monkeypatch, {}, "OSError: no LLVM")
-    finding = checks.compiler()
+    finding = doctor.compiler()
     assert (finding.ok, finding.text) == (False, "can't compile: OSError: no LLVM")
     assert finding.cure.endswith("-m pip install --upgrade numba")
 
@@ -151,17 +151,17 @@ def test_numba_that_cannot_compile(monkeypatch):
 def test_more_threads_than_cores_are_told_of(monkeypatch):
     monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
     answering(monkeypatch, {"threads": 2, "cores": 2})
-    assert checks.compiler() == Finding("Numba", True, "compiles; threads: 2")
+    assert doctor.compiler() == Finding("Numba", True, "compiles; threads: 2")
     answering(monkeypatch, {"threads": 99, "cores": 2})
-    text = "compiles; threads: 99 on 2 cores, more than help"
-    assert checks.compiler() == Finding("Numba", True, text)
+    text = "compiles; threads: 99 on 2 cores, more than useful"
+    assert doctor.compiler() == Finding("Numba", True, text)
 
 
 @pytest.mark.parametrize("value", ["1", "2", "01"])
 def test_a_compiler_that_is_switched_off(monkeypatch, value):
     monkeypatch.setenv("NUMBA_DISABLE_JIT", value)
-    assert checks.compiler().cure == "unset NUMBA_DISABLE_JIT"
-    assert checks.cache().ok
+    assert doctor.compiler().cure == "unset NUMBA_DISABLE_JIT"
+    assert doctor.cache().ok
 
 
 @pytest.mark.slow
@@ -172,10 +172,10 @@ def test_a_wrong_variable_is_the_same_fault_for_all_that_need_numba(monkeypatch)
         "the variable NUMBA_NUM_THREADS is 'x', but has to be a whole number of threads, 1 or more",
         "unset NUMBA_NUM_THREADS",
     )
-    for check in (checks.settings, checks.compiler):
+    for check in (doctor.settings, doctor.compiler):
         assert check()[1:] == (False, *problem)
     answering(monkeypatch, {}, f"Traceback\nSettingError: {machine.Problem(*problem)}")
-    for check in (checks.filters, checks.cache):
+    for check in (doctor.filters, doctor.cache):
         assert check()[1:] == (False, *problem)
 
 
@@ -183,16 +183,16 @@ def test_variables_that_can_be_are_listed(monkeypatch):
     for name in [name for name in os.environ if name.startswith("NUMBA_")]:
         monkeypatch.delenv(name)
     answering(monkeypatch, {"wrong": False})
-    assert checks.settings() == Finding("variables", True, "no NUMBA_ variable is set")
+    assert doctor.settings() == Finding("variables", True, "no NUMBA_ variable is set")
     monkeypatch.setenv("NUMBA_OPT", "3")
     monkeypatch.setenv("NUMBA_NUM_THREADS", "2")
-    assert checks.settings().text == "NUMBA_NUM_THREADS=2, NUMBA_OPT=3"
+    assert doctor.settings().text == "NUMBA_NUM_THREADS=2, NUMBA_OPT=3"
 
 
 def test_no_folder_for_the_cache(monkeypatch):
     monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
     answering(monkeypatch, {"folder": None, "steps": 9, "missing": None})
-    finding = checks.cache()
+    finding = doctor.cache()
     assert not finding.ok
     assert finding.cure.startswith("export NUMBA_CACHE_DIR=")
 
@@ -200,8 +200,8 @@ def test_no_folder_for_the_cache(monkeypatch):
 def test_a_cache_that_cannot_be_asked_for_is_no_missing_folder(monkeypatch):
     monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
     answering(monkeypatch, {}, "Traceback\nImportError: no LLVM")
-    finding = checks.cache()
-    assert (finding.ok, finding.text) == (False, "can't be looked at: ImportError: no LLVM")
+    finding = doctor.cache()
+    assert (finding.ok, finding.text) == (False, "can't be read: ImportError: no LLVM")
 
 
 def test_a_folder_of_the_users_that_is_of_no_use_for_the_cache(monkeypatch, tmp_path):
@@ -209,7 +209,7 @@ def test_a_folder_of_the_users_that_is_of_no_use_for_the_cache(monkeypatch, tmp_
     file = tmp_path / "file"
     file.touch()
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(file))
-    assert checks.cache() == Finding(
+    assert doctor.cache() == Finding(
         "Numba's cache",
         False,
         f"the folder of NUMBA_CACHE_DIR, {file}, can't be written: it is a file",
@@ -221,14 +221,14 @@ def test_damaged_files_of_the_cache_are_named(monkeypatch, tmp_path):
     monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
     values = {"folder": str(tmp_path), "steps": 9, "missing": 0}
     answering(monkeypatch, {**values, "damaged": ["/c a/one.nbc"]})
-    assert checks.cache() == Finding(
+    assert doctor.cache() == Finding(
         "Numba's cache",
         False,
-        "1 file damaged, compiled anew when needed: /c a/one.nbc",
+        "1 file damaged, compiled again when needed: /c a/one.nbc",
         "rm -r '/c a/one.nbc'",
     )
     answering(monkeypatch, {**values, "damaged": [f"/c/{i}/{i}.nbc" for i in "1212121212"]})
-    finding = checks.cache()
+    finding = doctor.cache()
     assert finding.text.startswith("10 files damaged, ")
     assert finding.cure == "rm -r /c/1 /c/2"
 
@@ -246,7 +246,7 @@ def test_a_home_that_nobody_can_write_is_no_cure(monkeypatch, tmp_path, home):
 
     monkeypatch.setattr(Path, "home", find)
     answering(monkeypatch, {"folder": None, "steps": 9, "missing": None})
-    assert checks.cache().cure == "export NUMBA_CACHE_DIR=/a/folder/of/yours"
+    assert doctor.cache().cure == "export NUMBA_CACHE_DIR=/a/folder/of/yours"
 
 
 def test_a_cache_folder_tells_what_is_compiled(monkeypatch, tmp_path):
@@ -254,14 +254,16 @@ def test_a_cache_folder_tells_what_is_compiled(monkeypatch, tmp_path):
 
     def found(folder, missing):
         answering(monkeypatch, {"folder": str(folder), "steps": 9, "missing": missing})
-        return checks.cache()
+        return doctor.cache()
 
     later = tmp_path / "later"
-    now = "the rest at its first use, or now with: meshlab-willmore warmup"
+    now = "the rest on first use, or now with: meshlab-willmore warmup"
     assert found(later, 9).text == f"{later} (nothing compiled yet; {now})"
     text = f"{tmp_path} (7 of 9 ways to flip and measure compiled yet; {now})"
     assert found(tmp_path, 2) == Finding("Numba's cache", True, text)
-    assert found(tmp_path, 0) == Finding("Numba's cache", True, f"{tmp_path} (all is compiled)")
+    assert found(tmp_path, 0) == Finding(
+        "Numba's cache", True, f"{tmp_path} (everything is compiled)"
+    )
     assert "meshlab-willmore warmup" in found(tmp_path, None).text
     file = tmp_path / "file"
     file.touch()
@@ -273,14 +275,14 @@ def test_a_cache_folder_tells_what_is_compiled(monkeypatch, tmp_path):
 
 def test_an_old_python(monkeypatch):
     monkeypatch.setattr(sys, "version_info", (3, 9, 2))
-    assert checks.python() == Finding(
+    assert doctor.python() == Finding(
         "Python", False, "3.9.2 is too old", "install Python 3.10 or later"
     )
 
 
 def test_a_package_that_is_not_installed(monkeypatch):
-    monkeypatch.setattr(checks, "LIBRARIES", ("numpy", "surely-no-such-package"))
-    finding = checks.libraries()
+    monkeypatch.setattr(doctor, "LIBRARIES", ("numpy", "surely-no-such-package"))
+    finding = doctor.libraries()
     assert (finding.ok, finding.text) == (False, "surely-no-such-package not installed")
     assert finding.cure.endswith("-m pip install surely-no-such-package")
 
@@ -290,7 +292,7 @@ def test_little_room_for_temporary_files(monkeypatch, tmp_path):
     monkeypatch.delenv("TMPDIR", raising=False)
     usage = shutil.disk_usage(tmp_path)
     monkeypatch.setattr(shutil, "disk_usage", lambda _: usage._replace(free=50 * 2**20))
-    finding = checks.temporary()
+    finding = doctor.temporary()
     assert finding == Finding(
         "temporary files",
         False,
@@ -298,16 +300,16 @@ def test_little_room_for_temporary_files(monkeypatch, tmp_path):
         "export TMPDIR=/a/folder/with/room",
     )
     monkeypatch.setattr(shutil, "disk_usage", lambda _: usage._replace(free=500 * 2**20))
-    assert checks.temporary() == Finding("temporary files", True, f"{tmp_path}, 500 MiB free")
+    assert doctor.temporary() == Finding("temporary files", True, f"{tmp_path}, 500 MiB free")
     monkeypatch.setenv("TMPDIR", str(tmp_path / "gone"))
-    assert checks.temporary().text == (
+    assert doctor.temporary().text == (
         f"TMPDIR names {tmp_path / 'gone'}, where no file can be written: there is no such folder; "
         f"{tmp_path} is used"
     )
     file = tmp_path / "file"
     file.touch()
     monkeypatch.setattr(tempfile, "tempdir", str(file))
-    assert checks.temporary().text == f"no temporary file can be written into {file}: it is a file"
+    assert doctor.temporary().text == f"no temporary file can be written into {file}: it is a file"
 
 
 def test_no_folder_for_temporary_files(monkeypatch):
@@ -315,7 +317,7 @@ def test_no_folder_for_temporary_files(monkeypatch):
         raise FileNotFoundError(2, "No usable temporary directory found in ['/tmp', '/']")
 
     monkeypatch.setattr(tempfile, "gettempdir", fail)
-    finding = checks.temporary()
+    finding = doctor.temporary()
     assert finding.text.startswith("no folder for temporary files: No usable")
     assert finding.cure.startswith("export TMPDIR=")
 
@@ -324,18 +326,18 @@ def test_no_folder_for_temporary_files(monkeypatch):
 
 
 def test_an_answer_among_noise():
-    answer = probe.ask("print('Warning: noise', end='')\nanswer = {'a': 1}")
-    assert answer == probe.Answer({"a": 1}, "Warning: noise")
+    answer = doctor.ask("print('Warning: noise', end='')\nanswer = {'a': 1}")
+    assert answer == doctor.Answer({"a": 1}, "Warning: noise")
 
 
 def test_a_process_that_dies_has_no_answer():
-    assert probe.ask("import os\nos.abort()").values == {}
-    answer = probe.ask("raise ValueError('why')")
+    assert doctor.ask("import os\nos.abort()").values == {}
+    answer = doctor.ask("raise ValueError('why')")
     assert answer.values == {}
     assert answer.printed.endswith("ValueError: why")
 
 
 def test_a_process_that_never_answers(monkeypatch):
-    monkeypatch.setattr(probe, "_SECONDS", 0.2)
-    answer = probe.ask("import time\ntime.sleep(60)")
-    assert answer == probe.Answer({}, "no answer in 0.2 seconds")
+    monkeypatch.setattr(doctor, "_SECONDS", 0.2)
+    answer = doctor.ask("import time\ntime.sleep(60)")
+    assert answer == doctor.Answer({}, "no answer in 0.2 seconds")

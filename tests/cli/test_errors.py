@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from meshlab_willmore.cli import trials
+from meshlab_willmore.cli import compare_row
 from meshlab_willmore.machine import MachineWarning, RoomError, SettingError
 from meshlab_willmore.meshset import flips
 from meshlab_willmore.meshset.play import play as play_steps
@@ -54,14 +54,14 @@ def test_measure_blames_no_mesh(monkeypatch):
     def fail(_):
         raise FULL
 
-    monkeypatch.setattr("meshlab_willmore.cli.measure.loaded", fail)
+    monkeypatch.setattr("meshlab_willmore.cli.loading.loaded", fail)
     result = call("measure", cube_file())
     assert (result.exit_code, result.stderr) == (1, f"Error: {FULL} (cube.ply is left out)\n")
 
 
 def test_compare_blames_no_mesh(monkeypatch):
-    outcome = trials.Outcome(error=str(FULL), of_machine=True)
-    monkeypatch.setattr(trials, "run", lambda *_: outcome)
+    outcome = compare_row.Outcome(error=str(FULL), of_machine=True)
+    monkeypatch.setattr(compare_row, "run", lambda *_: outcome)
     result = call("compare", cube_file())
     assert (result.exit_code, result.stdout, result.stderr) == (1, "", f"Error: {FULL}\n")
 

@@ -79,8 +79,8 @@ def test_each_parameter_of_the_filter_is_an_option_of_its_type():
     [
         (["cube.ply"], 2, "Missing argument 'OUT'."),
         (["cub.ply", "out.ply"], 2, "there is no file cub.ply; there is cube.ply"),
-        (["*.ply", "out.ply"], 2, "*.ply stands for 2 files; flip takes one, run takes all"),
-        (["cube.ply", "two.ply"], 2, "two.ply is there already; --force replaces it"),
+        (["*.ply", "out.ply"], 2, "*.ply matches 2 files; flip takes one, run takes all"),
+        (["cube.ply", "two.ply"], 2, "two.ply already exists; use --force to overwrite"),
         (["cube.ply", "out.foo"], 2, "the format of out.foo is unknown: PyMeshLab writes no .foo"),
         (["cube.ply", "o.ply", "--energy", "x"], 2, "Invalid value for '--energy': 'x' is not one"),
         (["cube.ply", "o.ply", "--maxflips", "x"], 2, "Invalid value for '--maxflips': 'x' is not"),

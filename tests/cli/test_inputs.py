@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from meshlab_willmore.cli import inputs
+from meshlab_willmore.cli import loading, paths
 from meshlab_willmore.cli.errors import WrongUse
-from meshlab_willmore.cli.outputs import check_place
+from meshlab_willmore.cli.paths import check_place
 
 from .conftest import (
     FLIP,
@@ -126,13 +126,13 @@ def test_absent_and_unknown_inputs_stop_nothing(bad):
 def test_an_input_that_goes_away_meanwhile(monkeypatch):
     square("a.off")
     square("b.off")
-    load = inputs.load
+    load = loading.load
 
     def take_away(ms, path):
         Path("b.off").unlink(missing_ok=True)
         load(ms, path)
 
-    monkeypatch.setattr(inputs, "load", take_away)
+    monkeypatch.setattr(loading, "load", take_away)
     result = call("run", script_file(TAUBIN), "-i", "a.off", "b.off", "-o", "{name}.ply")
     assert result.exit_code == 1
     assert result.stderr.splitlines()[0].startswith("Error: cannot read b.off: ")
@@ -166,7 +166,7 @@ def test_a_folder_that_nobody_may_enter(monkeypatch):
     square("closed/b.off")
     monkeypatch.setattr(os, "stat", refuse)
     with pytest.raises(WrongUse, match=r"closed/b\.off can't be read: permission denied"):
-        inputs.check(Path("closed/b.off"))
+        paths.check_input(Path("closed/b.off"))
     monkeypatch.setattr(Path, "lstat", refuse)
     with pytest.raises(OSError, match=r"^cannot write closed/c\.ply: Permission denied$"):
         check_place(Path("closed/c.ply"), force=False)
@@ -178,7 +178,7 @@ def test_the_outputs_of_bad_inputs_are_no_matter():
     square("b.ply")
     result = call("run", script_file(TAUBIN), "-i", "*.off", "-o", "{name}.ply")
     assert result.exit_code == 1
-    assert "b.ply is there" not in result.stderr
+    assert "b.ply already exists" not in result.stderr
     assert Path("b.ply").read_text() == SQUARE
 
 
@@ -218,7 +218,7 @@ def test_a_name_that_is_no_text_is_named():
     except OSError:
         pytest.skip("needs a file system with any bytes in names")
     with pytest.raises(WrongUse, match="PyMeshLab takes names in UTF-8 only"):
-        inputs.check(path)
+        paths.check_input(path)
 
 
 def test_the_working_folder_is_kept_after_each_load_and_save():
@@ -226,7 +226,7 @@ def test_the_working_folder_is_kept_after_each_load_and_save():
     Path("in/bad.ply").write_text("no mesh")
     here = Path.cwd()
     with pytest.raises(OSError, match=r"cannot read in/bad\.ply: Header not found"):
-        inputs.loaded(Path("in/bad.ply"))
+        loading.loaded(Path("in/bad.ply"))
     assert Path.cwd() == here
     assert call("flip", "in/bad.ply", "out.ply").exit_code == 1
     assert Path.cwd() == here
@@ -237,7 +237,7 @@ def test_a_picture_in_the_working_folder_is_not_taken_for_that_beside_the_mesh()
     Path("red.png").write_bytes((SAMPLES / "TextureDouble_A.png").read_bytes())
     textured = square_with_textures("in", "red.png")
     Path("in/red.png").write_bytes(ONE_PIXEL)
-    ms = inputs.loaded(textured)
+    ms = loading.loaded(textured)
     assert list(ms.current_mesh().textures()) == ["red.png"]
     assert ms.current_mesh().textures()["red.png"].width() == 1
 
@@ -262,8 +262,8 @@ def test_textures_of_one_name_are_not_mixed_up():
     result = call("run", script, *inputs_given, "-o", "out/{index}.obj", "--force")
     assert result.exit_code == 1
     assert result.stderr.splitlines()[0] == (
-        "Error: b/square.obj: cannot write out/2.obj: out/red.png is that of another output; "
-        "give each a folder"
+        "Error: b/square.obj: cannot write out/2.obj: out/red.png belongs to another output; "
+        "use different folders"
     )
     assert Path("out/red.png").read_bytes() == ONE_PIXEL
     # Twice the same one is no matter.
@@ -294,4 +294,4 @@ def test_a_corner_that_is_not_there_is_found_before_a_filter_goes_there(name, te
 )
 def test_a_sound_text_is_read(text):
     Path("a.off").write_text(text)
-    assert inputs.loaded(Path("a.off")).current_mesh().face_number() == 2
+    assert loading.loaded(Path("a.off")).current_mesh().face_number() == 2

@@ -82,7 +82,7 @@ def test_every_command_is_in_the_help():
 
 
 def test_help_names_the_exit_codes():
-    assert "Exit codes: 0 done, 1 failed while running, 2 wrong use." in run("--help").stdout
+    assert "Exit codes: 0 success, 1 failure while running, 2 wrong usage." in run("--help").stdout
 
 
 def test_version():
@@ -209,9 +209,9 @@ def test_whole_demo_in_a_process_of_its_own(tmp_path):
     assert {path.suffix for path in files} == {".ply", ".png"}
     assert all(path.stat().st_size > 0 for path in files)
     # Progress has a line for each stage, and nothing else is said: no warning of any library.
-    # Something may be compiled, or not.
+    # Something may be compiled, or not; on a slow machine there are lines on how far it is.
     stages = {line.partition(":")[0] for line in done.stderr.splitlines()}
-    stages.discard("compiling (the first run only)")
+    stages -= {"compiling (the first run only)", "demo"}
     assert stages == {"cube", "torus", "scan", "face", "picture"}
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from meshlab_willmore import measures
-from meshlab_willmore.cli import measure as measure_module
+from meshlab_willmore.cli.text import for_json
 from tests import meshes
 
 from .conftest import SAMPLES, call, cube_file, spawn
@@ -52,7 +52,7 @@ def test_a_file_that_cannot_be_measured_does_not_stop_the_others():
 def test_what_is_no_number_is_null_in_json():
     row = {"file": "a", "faces": 1, "area": float("inf"), "W": float("nan"), "K": 1.5}
     shown = {"file": "a", "faces": 1, "area": None, "W": None, "K": 1.5}
-    assert measure_module._for_json(row) == shown
+    assert for_json(row) == shown
 
 
 def test_what_is_absent_does_not_stop_the_others():

@@ -1,13 +1,18 @@
 """The line that tells how far a command is."""
 
 import contextlib
+import errno
 import io
 import sys
+from pathlib import Path
 
 import pytest
 
 from meshlab_willmore.cli import progress
 from meshlab_willmore.cli.progress import Status, shown
+from meshlab_willmore.mesh import jit, kernel_cache
+
+from .conftest import Terminal
 
 LONG = "/a/very/long/path/that/nobody/would/ever/want/to/read/in/full/of/the/scan_0017.ply"
 WIDE = "\u9762" * 40
@@ -21,11 +26,6 @@ class Clock:
 
     def __call__(self):
         return self.now
-
-
-class Terminal(io.StringIO):
-    def isatty(self):
-        return True
 
 
 @contextlib.contextmanager
@@ -140,8 +140,37 @@ def test_it_goes_on_while_the_streams_are_turned_away(tmp_path, monkeypatch):
     path = tmp_path / "terminal"
     with path.open("w", encoding="utf-8") as stream:
         stream_number = stream.fileno()
-        own = progress._own(stream)
+        own = progress._duplicate(stream)
         with own as past, muted():
             print("still here", file=past, flush=True)
         assert stream.fileno() == stream_number
     assert path.read_text(encoding="utf-8") == "still here\n"
+
+
+# Kernels that can't be kept
+
+
+@pytest.fixture
+def home(monkeypatch, tmp_path):
+    monkeypatch.setattr(Path, "home", lambda: tmp_path)
+    return tmp_path
+
+
+def test_a_full_cache_is_told_of_once(monkeypatch, capsys, home):
+    monkeypatch.setattr(jit, "cache_folder", lambda: "/the/cache")
+    monkeypatch.setattr(kernel_cache, "write_errors", [OSError(errno.ENOSPC, "full")])
+    progress._note_lost_kernels(True)
+    progress._note_lost_kernels(True)
+    cure = f"export NUMBA_CACHE_DIR={home / '.cache' / 'numba'}"
+    text = "compiled kernels can't be saved in /the/cache: No space left on device"
+    assert capsys.readouterr().err == f"Note: {text}; mend it with: {cure}\n"
+
+
+def test_no_folder_is_told_of_where_something_was_compiled(monkeypatch, capsys, home):
+    monkeypatch.setattr(jit, "cache_folder", lambda: None)
+    progress._note_lost_kernels(False)
+    assert capsys.readouterr().err == ""
+    progress._note_lost_kernels(True)
+    line = capsys.readouterr().err
+    assert line.startswith("Note: there is no folder to keep compiled kernels in, so each run")
+    assert line.count("\n") == 1

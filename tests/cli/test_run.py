@@ -1,6 +1,5 @@
 """`run`: scripts on files, one after the other, and what is said about it."""
 
-import io
 import os
 import re
 import shlex
@@ -12,12 +11,14 @@ import numpy as np
 import pymeshlab
 import pytest
 
-from meshlab_willmore.cli import main, playing, told
+from meshlab_willmore.cli import main, text
+from meshlab_willmore.cli import run as run_module
 
 from .conftest import (
     FLIP,
     SAMPLES,
     TAUBIN,
+    Terminal,
     call,
     cube_file,
     listing,
@@ -201,7 +202,7 @@ def no_step(monkeypatch):
     def fail(*_arguments):
         raise AssertionError("a step ran")
 
-    monkeypatch.setattr(playing, "play", fail)
+    monkeypatch.setattr(run_module, "play", fail)
 
 
 @pytest.mark.parametrize(
@@ -233,9 +234,12 @@ def no_step(monkeypatch):
         ),
         (
             ["script.mlx", "-i", "cube.ply", "-o", "empty.ply/a.ply"],
-            "cannot write empty.ply/a.ply: the folder empty.ply is a file, no folder",
+            "cannot write empty.ply/a.ply: the folder empty.ply is a file, not a folder",
         ),
-        (["script.mlx", "-i", "cube.ply", "-o", "cube.ply"], "cube.ply is there already; --force"),
+        (
+            ["script.mlx", "-i", "cube.ply", "-o", "cube.ply"],
+            "cube.ply already exists; use --force",
+        ),
         (["script.mlx", "-i", "cube.ply", "-o", "folder"], "folder is a folder; name a file in it"),
         (["script.mlx", "-i", "cube.ply", "-o", "{nam}.ply"], "{nam} in '{nam}.ply' is no placeho"),
         (["script.mlx", "-i", "cube.ply", "-o", "{.ply"], "the output name '{.ply' can't be read"),
@@ -254,7 +258,7 @@ def no_step(monkeypatch):
         (["s" * 300 + ".mlx"], f"there is no filter script {'s' * 300}.mlx"),
         (["script.mlx", "-p", "a.mlp"], "-p of meshlabserver is gone: projects are not read; name"),
         (["script.mlx", "-w", "a.mlp"], "-w of meshlabserver is gone: projects are not written"),
-        (["script.mlx", "-i", "cube.ply", "-x"], "-x of meshlabserver is gone: --force replaces"),
+        (["script.mlx", "-i", "cube.ply", "-x"], "-x of meshlabserver is gone: --force overwrites"),
         (["-d", "list.txt"], "-d of meshlabserver is gone: 'meshlab-willmore filters' lists"),
         (["script.mlx", "-o", "{name}.ply"], "-o {name}.ply: there is no input to take a name fro"),
         (["script.mlx", "-i", "cube.ply", "two.ply", "-o", "a.ply"], "2 inputs need one -o with a"),
@@ -323,7 +327,7 @@ def test_a_dry_run_checks_all_and_writes_nothing(monkeypatch, script, cube):
     no_step(monkeypatch)
     result = call("run", script, "-i", cube, "-o", "out.ply", "--log", "log.txt", "--dry-run")
     assert result.exit_code == 0
-    assert result.stdout == "cube.ply: fine; 2 steps to run, then out.ply to write\n"
+    assert result.stdout == "cube.ply: ok; 2 steps to run, then out.ply to write\n"
     assert listing() == ["cube.ply", "script.mlx"]
     Path("bad.ply").write_text("no mesh")
     assert call("run", script, "-i", "bad.ply", "--dry-run").exit_code == 1
@@ -461,25 +465,20 @@ def test_what_steps_return_is_told_in_short(cube):
 
 
 def test_long_values_are_cut():
-    assert told._short(2 / 3) == "0.666667"
-    assert told._short(np.array([[1 / 3, 1e-9], [1e300, np.inf]])) == (
+    assert text._short(2 / 3) == "0.666667"
+    assert text._short(np.array([[1 / 3, 1e-9], [1e300, np.inf]])) == (
         "[[0.333333, 1e-09], [1e+300, inf]]"
     )
-    assert told._short(np.arange(3)) == "[0, 1, 2]"
-    assert told._short(np.zeros(1000)) == str([0.0] * 1000)[:60] + "..."
-
-
-class Terminal(io.StringIO):
-    def isatty(self):
-        return True
+    assert text._short(np.arange(3)) == "[0, 1, 2]"
+    assert text._short(np.zeros(1000)) == str([0.0] * 1000)[:60] + "..."
 
 
 @pytest.mark.parametrize("step", [FLIP, TAUBIN])
 def test_a_terminal_hears_of_compiling_only_while_something_is(monkeypatch, cube, step):
-    orders = ["run", str(script_file(step)), "-i", "cube.ply"]
-    main(orders, standalone_mode=False)
+    arguments = ["run", str(script_file(step)), "-i", "cube.ply"]
+    main(arguments, standalone_mode=False)
     monkeypatch.setattr(sys, "stderr", Terminal())
-    main(orders, standalone_mode=False)
+    main(arguments, standalone_mode=False)
     shown = sys.stderr.getvalue()
     assert "cube.ply  [" in shown
     assert "ompil" not in shown
@@ -515,7 +514,7 @@ def test_a_log_on_a_closed_output_goes_nowhere(script, cube):
 @pytest.mark.skipif(sys.platform == "win32", reason="a shell of POSIX")
 def test_no_file_takes_the_place_of_a_closed_stream():
     code = (
-        "import os, sys; from meshlab_willmore.cli import streams; streams.completed(); "
+        "import os, sys; from meshlab_willmore.cli import errors; errors.open_closed_streams(); "
         "sys.exit(os.open('new', os.O_CREAT | os.O_WRONLY))"
     )
     command = f"{shlex.quote(sys.executable)} -c {shlex.quote(code)} <&- >&- 2>&-"

@@ -12,9 +12,9 @@ import numpy as np
 import pymeshlab
 import pytest
 
-from meshlab_willmore.cli import saving, textures
-from meshlab_willmore.cli.outputs import check_place
-from meshlab_willmore.cli.saving import Wish, save
+from meshlab_willmore.cli import saving
+from meshlab_willmore.cli.paths import check_place
+from meshlab_willmore.cli.saving import SaveOptions, save
 from tests import meshes
 
 from .conftest import SAMPLES, cube_file, listing, loaded, same_mesh
@@ -45,7 +45,7 @@ def test_a_saved_mesh_is_what_pymeshlab_writes(ending, tmp_path):
     for folder in ("ours", "native"):
         (tmp_path / folder).mkdir()
     ours, native = tmp_path / "ours" / f"a.{ending}", tmp_path / "native" / f"a.{ending}"
-    assert save(cube_set(), ours, Wish())[0] == ours
+    assert save(cube_set(), ours, SaveOptions())[0] == ours
     cube_set().save_current_mesh(str(native))
     assert listing(ours.parent) == listing(native.parent)
     if ending not in VARYING:
@@ -56,7 +56,7 @@ def test_a_saved_mesh_is_what_pymeshlab_writes(ending, tmp_path):
 
 
 def test_material_and_texture_stand_beside_the_mesh(tmp_path):
-    files = save(textured_set(), tmp_path / "a.obj", Wish(origin=SAMPLES))
+    files = save(textured_set(), tmp_path / "a.obj", SaveOptions(origin=SAMPLES))
     assert sorted(file.name for file in files) == listing(tmp_path) == [IMAGE, "a.obj", "a.obj.mtl"]
     assert files[0].name == "a.obj"
     assert "mtllib ./a.obj.mtl" in (tmp_path / "a.obj").read_text()
@@ -68,8 +68,8 @@ def test_material_and_texture_stand_beside_the_mesh(tmp_path):
 
 
 def test_a_texture_that_is_there_already_is_no_conflict(tmp_path):
-    save(textured_set(), tmp_path / "a.ply", Wish(origin=SAMPLES))
-    files = save(textured_set(), tmp_path / "b.ply", Wish(origin=SAMPLES))
+    save(textured_set(), tmp_path / "a.ply", SaveOptions(origin=SAMPLES))
+    files = save(textured_set(), tmp_path / "b.ply", SaveOptions(origin=SAMPLES))
     assert tmp_path / "b.ply" in files
     assert listing(tmp_path) == [IMAGE, "a.ply", "b.ply"]
 
@@ -77,11 +77,13 @@ def test_a_texture_that_is_there_already_is_no_conflict(tmp_path):
 def test_another_texture_of_that_name_is_kept_unless_forced(tmp_path):
     other = tmp_path / IMAGE
     other.write_bytes(b"somebody's picture")
-    with pytest.raises(OSError, match=rf"cannot write .*a\.ply: .*{IMAGE} is there; --force"):
-        save(textured_set(), tmp_path / "a.ply", Wish(origin=SAMPLES))
+    with pytest.raises(
+        OSError, match=rf"cannot write .*a\.ply: .*{IMAGE} already exists; use --force"
+    ):
+        save(textured_set(), tmp_path / "a.ply", SaveOptions(origin=SAMPLES))
     assert listing(tmp_path) == [IMAGE]
     assert other.read_bytes() == b"somebody's picture"
-    save(textured_set(), tmp_path / "a.ply", Wish(force=True, origin=SAMPLES))
+    save(textured_set(), tmp_path / "a.ply", SaveOptions(force=True, origin=SAMPLES))
     assert other.read_bytes() == (SAMPLES / IMAGE).read_bytes()
 
 
@@ -90,7 +92,7 @@ def test_a_changed_texture_is_written_anew(tmp_path):
     changed.parent.mkdir()
     # The file beside the input shows something else by now.
     changed.write_bytes(b"not the picture")
-    save(textured_set(), tmp_path / "a.obj", Wish(origin=changed.parent))
+    save(textured_set(), tmp_path / "a.obj", SaveOptions(origin=changed.parent))
     again = pymeshlab.MeshSet()
     again.load_new_mesh(str(tmp_path / "a.obj"))
     (image,) = again.current_mesh().textures().values()
@@ -111,7 +113,7 @@ def test_a_texture_in_a_folder_above_lands_there(tmp_path):
     assert list(ms.current_mesh().textures()) == ["../images/t.png"]
     target = tmp_path / "target" / "mesh"
     target.mkdir(parents=True)
-    save(ms, target / "b.obj", Wish(origin=source))
+    save(ms, target / "b.obj", SaveOptions(origin=source))
     assert listing(target) == ["b.obj", "b.obj.mtl"]
     assert listing(tmp_path / "target") == ["images", "mesh"]
     assert (target.parent / "images" / "t.png").read_bytes() == (SAMPLES / IMAGE).read_bytes()
@@ -119,7 +121,7 @@ def test_a_texture_in_a_folder_above_lands_there(tmp_path):
 
 @pytest.mark.parametrize(
     ("name", "wish"),
-    [("a.stl", Wish()), ("a.ply", Wish(parts=("vn",)))],
+    [("a.stl", SaveOptions()), ("a.ply", SaveOptions(parts=("vn",)))],
 )
 def test_no_texture_where_the_file_does_not_speak_of_it(tmp_path, name, wish):
     save(textured_set(), tmp_path / name, wish)
@@ -137,8 +139,8 @@ def test_a_mask_lists_all_that_is_saved(tmp_path):
     ms = textured_set()
     ms.compute_color_by_function_per_vertex()
     ms.compute_scalar_by_function_per_vertex(q="x")
-    save(ms, tmp_path / "all.ply", Wish())
-    save(ms, tmp_path / "some.ply", Wish(parts=("vn", "vc")))
+    save(ms, tmp_path / "all.ply", SaveOptions())
+    save(ms, tmp_path / "some.ply", SaveOptions(parts=("vn", "vc")))
     assert "property double quality" in header(tmp_path / "all.ply")
     assert "texcoord" in header(tmp_path / "all.ply")
     text = header(tmp_path / "some.ply")
@@ -149,7 +151,7 @@ def test_a_mask_lists_all_that_is_saved(tmp_path):
 
 
 def test_a_part_that_the_format_has_no_place_for_is_named(tmp_path, capsys):
-    save(cube_set(), tmp_path / "a.stl", Wish(parts=("vc", "fc", "wt")))
+    save(cube_set(), tmp_path / "a.stl", SaveOptions(parts=("vc", "fc", "wt")))
     told = "Note: .stl files hold no vertex colours (vc) and no wedge texture coordinates (wt)\n"
     assert capsys.readouterr().err == told
     assert (tmp_path / "a.stl").exists()
@@ -194,20 +196,20 @@ def test_a_writer_that_stops_half_way_is_noticed():
     if not Path("/dev/full").exists():
         pytest.skip("needs /dev/full")
     with pytest.raises(OSError, match=r"cannot write a\.ply: No space left on device"):
-        saving._check_whole(Path("/dev/full"), Path("a.ply"))
+        saving._check_complete(Path("/dev/full"), Path("a.ply"))
 
 
 def test_every_file_is_checked(tmp_path, monkeypatch):
     seen = set()
-    monkeypatch.setattr(saving, "_check_whole", lambda _, target: seen.add(target.name))
-    save(textured_set(), tmp_path / "a.obj", Wish())
+    monkeypatch.setattr(saving, "_check_complete", lambda _, target: seen.add(target.name))
+    save(textured_set(), tmp_path / "a.obj", SaveOptions())
     assert sorted(seen) == listing(tmp_path) == [IMAGE, "a.obj", "a.obj.mtl"]
 
 
 def test_checking_leaves_the_file_as_it_is(tmp_path):
     path = tmp_path / "a.ply"
     path.write_bytes(b"all of it")
-    saving._check_whole(path, path)
+    saving._check_complete(path, path)
     assert path.read_bytes() == b"all of it"
 
 
@@ -219,7 +221,7 @@ def test_a_format_of_which_nothing_is_written(tmp_path):
     silent = Silent()
     silent.add_mesh(pymeshlab.Mesh(*meshes.cube()))
     with pytest.raises(OSError, match=r"cannot write .*a\.ply: PyMeshLab wrote no \.ply file"):
-        save(silent, tmp_path / "a.ply", Wish())
+        save(silent, tmp_path / "a.ply", SaveOptions())
     assert listing(tmp_path) == []
 
 
@@ -231,9 +233,9 @@ def test_after_an_error_nothing_is_left(tmp_path, monkeypatch, error):
     def fail(*_arguments):
         raise error
 
-    monkeypatch.setattr(saving, "_check_whole", fail)
+    monkeypatch.setattr(saving, "_check_complete", fail)
     with pytest.raises(type(error)):
-        save(textured_set(), path, Wish(force=True))
+        save(textured_set(), path, SaveOptions(force=True))
     assert listing(tmp_path) == ["a.ply"]
     assert path.read_bytes() == before
 
@@ -248,17 +250,17 @@ def test_if_the_mesh_cannot_be_renamed_its_new_side_files_go(tmp_path, monkeypat
 
     monkeypatch.setattr(os, "replace", fail_for_mesh)
     with pytest.raises(OSError, match=r"cannot write .*a\.obj: Permission denied"):
-        save(textured_set(), tmp_path / "a.obj", Wish(origin=SAMPLES))
+        save(textured_set(), tmp_path / "a.obj", SaveOptions(origin=SAMPLES))
     assert listing(tmp_path) == []
 
 
 def test_an_older_file_is_replaced_only_when_forced(tmp_path):
     path = tmp_path / "a.ply"
     path.write_text("mine")
-    with pytest.raises(OSError, match="is there; --force replaces it"):
-        save(cube_set(), path, Wish())
+    with pytest.raises(OSError, match="already exists; use --force to overwrite"):
+        save(cube_set(), path, SaveOptions())
     assert path.read_text() == "mine"
-    save(cube_set(), path, Wish(force=True))
+    save(cube_set(), path, SaveOptions(force=True))
     assert np.array_equal(loaded(path).faces, meshes.cube()[1])
     assert listing(tmp_path) == ["a.ply"]
 
@@ -268,7 +270,7 @@ def test_a_file_that_is_replaced_hands_on_its_mode(tmp_path):
     path = tmp_path / "a.ply"
     path.touch()
     path.chmod(0o640)
-    save(cube_set(), path, Wish(force=True))
+    save(cube_set(), path, SaveOptions(force=True))
     assert stat.S_IMODE(path.stat().st_mode) == 0o640
     assert path.stat().st_size > 0
 
@@ -281,10 +283,10 @@ def test_a_link_stays_and_leads_to_the_new_mesh(tmp_path):
     real.write_text("older")
     link = tmp_path / "a.ply"
     link.symlink_to(real)
-    with pytest.raises(OSError, match="is there; --force replaces it"):
-        save(cube_set(), link, Wish())
+    with pytest.raises(OSError, match="already exists; use --force to overwrite"):
+        save(cube_set(), link, SaveOptions())
     assert real.read_text() == "older"
-    save(cube_set(), link, Wish(force=True))
+    save(cube_set(), link, SaveOptions(force=True))
     assert link.is_symlink()
     assert np.array_equal(loaded(real).faces, meshes.cube()[1])
     assert (listing(tmp_path), listing(folder)) == (["a.ply", "elsewhere"], ["real.ply"])
@@ -294,12 +296,12 @@ def test_a_link_stays_and_leads_to_the_new_mesh(tmp_path):
 def test_a_link_that_leads_nowhere_is_there(tmp_path):
     link = tmp_path / "a.ply"
     link.symlink_to("real.ply")
-    with pytest.raises(click.ClickException, match="is there already; --force"):
+    with pytest.raises(click.ClickException, match="already exists; use --force"):
         check_place(link, force=False)
-    with pytest.raises(OSError, match="is there; --force replaces it"):
-        save(cube_set(), link, Wish())
+    with pytest.raises(OSError, match="already exists; use --force to overwrite"):
+        save(cube_set(), link, SaveOptions())
     assert listing(tmp_path) == ["a.ply"]
-    save(cube_set(), link, Wish(force=True))
+    save(cube_set(), link, SaveOptions(force=True))
     assert link.is_symlink()
     assert listing(tmp_path) == ["a.ply", "real.ply"]
 
@@ -326,7 +328,7 @@ def test_what_is_no_file_is_never_replaced(kind, link):
     with pytest.raises(click.ClickException, match=r"is a folder|cannot write .* a (pipe|socket)"):
         check_place(path, force=True)
     with pytest.raises(OSError, match=r"cannot write .* a (pipe|socket|folder), and only files"):
-        save(cube_set(), path, Wish(force=True))
+        save(cube_set(), path, SaveOptions(force=True))
     assert {name: os.lstat(name).st_mode for name in listing()} == before
 
 
@@ -337,7 +339,7 @@ def test_a_file_beside_the_mesh_replaces_files_only(name):
     os.mkfifo("pipe")
     Path(name).symlink_to("pipe")
     with pytest.raises(OSError, match=f"cannot write {name}: it leads to a pipe"):
-        save(ms, Path("a.obj"), Wish(force=True, origin=SAMPLES))
+        save(ms, Path("a.obj"), SaveOptions(force=True, origin=SAMPLES))
     assert listing() == sorted([name, "pipe"])
     assert stat.S_ISFIFO(os.stat(name).st_mode)
 
@@ -362,27 +364,27 @@ def properties(path):
 
 def test_custom_attributes_are_saved(tmp_path, capsys):
     ms = with_attributes("Mine", "thickness-2")
-    save(ms, tmp_path / "all.PLY", Wish())
+    save(ms, tmp_path / "all.PLY", SaveOptions())
     new = {"Mine", "thickness-2", "Points", "on_faces", "on_faces_too"}
-    save(cube_set(), tmp_path / "none.ply", Wish())
+    save(cube_set(), tmp_path / "none.ply", SaveOptions())
     assert properties(tmp_path / "all.PLY") - properties(tmp_path / "none.ply") == new
     assert capsys.readouterr().err == ""
     # A mask says all that is wanted.
-    save(ms, tmp_path / "some.ply", Wish(parts=("vq",)))
+    save(ms, tmp_path / "some.ply", SaveOptions(parts=("vq",)))
     assert not new & properties(tmp_path / "some.ply")
 
 
 def test_formats_without_custom_attributes_say_so(tmp_path, capsys):
-    save(with_attributes("a"), tmp_path / "a.stl", Wish())
+    save(with_attributes("a"), tmp_path / "a.stl", SaveOptions())
     assert capsys.readouterr().err == "Note: .stl files hold no custom attributes\n"
-    save(cube_set(), tmp_path / "b.stl", Wish())
+    save(cube_set(), tmp_path / "b.stl", SaveOptions())
     assert capsys.readouterr().err == ""
 
 
 @pytest.mark.parametrize("name", ["a b", "a\nend_header", "", "a\nproperty float x"])
 def test_attributes_with_odd_names_spoil_nothing(tmp_path, capsys, name):
     path = tmp_path / "a.ply"
-    save(with_attributes("good", name), path, Wish())
+    save(with_attributes("good", name), path, SaveOptions())
     # What stands behind the end of the header can't be told from it.
     assert "good" in properties(path) or "end_header" in name
     assert same_mesh(path, cube_file(tmp_path / "b.ply"))
@@ -391,7 +393,7 @@ def test_attributes_with_odd_names_spoil_nothing(tmp_path, capsys, name):
 
 
 def test_the_files_have_the_usual_permissions(tmp_path):
-    save(cube_set(), tmp_path / "a.ply", Wish())
+    save(cube_set(), tmp_path / "a.ply", SaveOptions())
     usual = tmp_path / "usual"
     usual.touch()
     assert (tmp_path / "a.ply").stat().st_mode == usual.stat().st_mode
@@ -399,7 +401,7 @@ def test_the_files_have_the_usual_permissions(tmp_path):
 
 def test_long_and_foreign_names(tmp_path):
     path = tmp_path / ("ü" * 100 + ".ply")
-    save(cube_set(), path, Wish())
+    save(cube_set(), path, SaveOptions())
     assert listing(tmp_path) == [path.name]
     assert same_mesh(path, cube_file(tmp_path / "b.ply"))
 
@@ -410,6 +412,6 @@ def test_textures_compare_by_what_they_show(tmp_path):
     encoded_anew = tmp_path / "anew.png"
     image.save(str(encoded_anew))
     assert encoded_anew.read_bytes() != (SAMPLES / IMAGE).read_bytes()
-    textures.write(image, tmp_path / "out.png", [encoded_anew, SAMPLES / IMAGE])
+    saving.write_texture(image, tmp_path / "out.png", [encoded_anew, SAMPLES / IMAGE])
     assert (tmp_path / "out.png").read_bytes() == encoded_anew.read_bytes()
     assert listing(tmp_path) == ["anew.png", "out.png"]

@@ -35,7 +35,7 @@ def test_fine_scripts():
     script_file(TAUBIN, path="b.mlx")
     result = call("lint", "*.mlx")
     assert (result.exit_code, result.stderr) == (0, "")
-    assert result.stdout == "a.mlx: fine, 2 steps\nb.mlx: fine, 1 step\n"
+    assert result.stdout == "a.mlx: ok, 2 steps\nb.mlx: ok, 1 step\n"
 
 
 def test_every_fault_of_every_script_has_a_line():
@@ -53,7 +53,7 @@ def test_every_fault_of_every_script_has_a_line():
     assert "step 1 (Taubin Smoth)" in lines[0]
     assert "Taubin Smooth" in lines[0]
     assert "'mxflips'" in lines[1]
-    assert lines[2] == "b.mlx: fine, 1 step"
+    assert lines[2] == "b.mlx: ok, 1 step"
     assert lines[4] == "d.mlx: there is no such file"
 
 
@@ -104,7 +104,7 @@ def test_warnings_have_lines_and_are_no_faults():
         "a.mlx: warning: step 2 (Change the current layer): MeshLab has no such step any more",
         f"{rotate}: is 'allLayers' today",
         f"{rotate}: has no type; it is read as RichBool, the filter's own",
-        "a.mlx: fine, 3 steps",
+        "a.mlx: ok, 3 steps",
     ]
 
 
@@ -209,7 +209,7 @@ def test_a_script_with_faults_is_not_converted():
     ("arguments", "line"),
     [
         (["no.mlx", "b.mlx"], "there is no filter script no.mlx"),
-        (["a.mlx", "a.mlx"], "a.mlx is there already; --force replaces it"),
+        (["a.mlx", "a.mlx"], "a.mlx already exists; use --force to overwrite"),
         (["a.mlx", "."], ". is a folder; name a file in it, such as 'today.mlx'"),
         (["a.mlx", "no/b.mlx"], "cannot write no/b.mlx: the folder no does not exist"),
     ],
@@ -256,7 +256,7 @@ def test_a_script_behind_a_link_is_replaced_and_keeps_its_mode():
 def test_lint_and_convert_read_the_standard_input():
     text = script_file(TAUBIN, path="a.mlx").read_text()
     result = call("lint", "-", input=text)
-    assert (result.exit_code, result.stdout) == (0, "-: fine, 1 step\n")
+    assert (result.exit_code, result.stdout) == (0, "-: ok, 1 step\n")
     result = call("convert", "-", "-", input=text)
     assert (result.exit_code, result.stderr) == (0, "standard input -> -: 1 of 1 steps\n")
     assert call("lint", "-", input=result.stdout).exit_code == 0
@@ -271,7 +271,7 @@ def test_convert_and_lint_read_a_pipe_once():
         assert call("convert", name, "b.mlx").exit_code == 0
     assert [step.filter for step in script.read("b.mlx")] == ["Taubin Smooth"]
     with piped(text) as name:
-        assert call("lint", name).stdout == f"{name}: fine, 1 step\n"
+        assert call("lint", name).stdout == f"{name}: ok, 1 step\n"
 
 
 @POSIX
@@ -317,6 +317,6 @@ def test_a_name_that_is_no_script_hides_no_other(tmp_path):
     path = script_file(TAUBIN)
     result = call("lint", tmp_path, "*.nothing", path)
     assert result.exit_code == 1
-    assert result.stdout == f"{path}: fine, 1 step\n"
+    assert result.stdout == f"{path}: ok, 1 step\n"
     assert f"Error: {tmp_path} is a folder" in result.stderr
     assert "Error: no file matches '*.nothing'" in result.stderr

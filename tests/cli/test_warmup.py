@@ -1,8 +1,11 @@
 """`warmup`: what it says, and how it fails."""
 
-from meshlab_willmore import warmup
+import sys
 
-from .conftest import call
+from meshlab_willmore import warmup
+from meshlab_willmore.cli import main
+
+from .conftest import Terminal, call
 
 FOLDER = "/the/folder"
 
@@ -19,7 +22,7 @@ def ending(monkeypatch, compiled):
 
 def test_what_was_done_is_told_in_a_line(monkeypatch):
     for compiled, text in (
-        (0, "all is there"),
+        (0, "everything was compiled already"),
         (1, "1 kernel compiled"),
         (3, "3 kernels compiled"),
     ):
@@ -31,9 +34,9 @@ def test_what_was_done_is_told_in_a_line(monkeypatch):
 
 def test_a_terminal_is_told_what_is_compiled(monkeypatch):
     ending(monkeypatch, 1)
-    monkeypatch.setattr("meshlab_willmore.cli.warmup.is_terminal", lambda: True)
-    result = call("warmup")
-    assert result.stderr == "one: compiled in 1.0 s\n"
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    main(["warmup"], standalone_mode=False)
+    assert "one: compiled in 1.0 s\n" in sys.stderr.getvalue()
 
 
 def test_an_error_is_one_line(monkeypatch):

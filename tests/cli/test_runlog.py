@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from meshlab_willmore.cli import playing
+from meshlab_willmore.cli import run as run_module
 
 from .conftest import TAUBIN, call, cube_file, listing, script_file
 
@@ -26,7 +26,7 @@ def no_step(monkeypatch):
     def fail(*_arguments):
         raise AssertionError("a step ran")
 
-    monkeypatch.setattr(playing, "play", fail)
+    monkeypatch.setattr(run_module, "play", fail)
 
 
 def contents():
@@ -37,15 +37,15 @@ def contents():
 @pytest.mark.parametrize(
     ("log", "line"),
     [
-        ("cube.ply", "--log cube.ply: the log would be written into cube.ply; give it a new name"),
-        ("./script.mlx", "--log ./script.mlx: the log would be written into script.mlx; give it a"),
+        ("cube.ply", "--log cube.ply: the log would be written into cube.ply; use a new name"),
+        ("./script.mlx", "--log ./script.mlx: the log would be written into script.mlx; use a new"),
         (
             "folder/../out.ply",
-            "--log folder/../out.ply: the log would be written into out.ply; give",
+            "--log folder/../out.ply: the log would be written into out.ply; use a",
         ),
-        ("out.ply.mtl", "--log out.ply.mtl: the log would be written into out.ply.mtl; give it a"),
-        ("mine.txt", "--log mine.txt: this file is no log of a run; give the log a new name"),
-        ("other.ply", "--log other.ply: this file is no log of a run; give the log a new name"),
+        ("out.ply.mtl", "--log out.ply.mtl: the log would be written into out.ply.mtl; use a new"),
+        ("mine.txt", "--log mine.txt: this file is no log of a run; use a new name"),
+        ("other.ply", "--log other.ply: this file is no log of a run; use a new name"),
         ("folder", "--log folder is a folder; name a file in it, such as 'folder/log.txt'"),
         ("no/log.txt", "cannot write the log no/log.txt: there is no folder no"),
         ("mine.txt/log.txt", "cannot write the log mine.txt/log.txt: there is no folder mine.txt"),
@@ -89,7 +89,7 @@ def test_a_folder_that_takes_no_file_is_found_before(run, no_step, monkeypatch, 
         raise PermissionError(13, "Permission denied")
 
     Path("closed").mkdir()
-    monkeypatch.setattr("meshlab_willmore.cli.outputs.writable_folder", lambda _: None)
+    monkeypatch.setattr("meshlab_willmore.cli.paths.writable_folder", lambda _: None)
     monkeypatch.setattr("meshlab_willmore.files.TemporaryFile", refuse)
     result = call(*run, "--log", "closed/log.txt", *dry)
     assert result.exit_code == 1

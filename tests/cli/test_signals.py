@@ -23,7 +23,7 @@ from meshlab_willmore.cli import main, saving
 def stand_still(source, target):
     Path("ready").touch()
     time.sleep(60)
-saving._check_whole = stand_still
+saving._check_complete = stand_still
 main(sys.argv[1:], prog_name="meshlab-willmore")
 """
 PATIENCE = 60
@@ -87,7 +87,7 @@ def test_sigterm_goes_the_way_of_ctrl_c(run, monkeypatch):
         os.kill(os.getpid(), signal.SIGTERM)
 
     before = signal.getsignal(signal.SIGTERM)
-    monkeypatch.setattr(saving, "_check_whole", stop)
+    monkeypatch.setattr(saving, "_check_complete", stop)
     result = call(*run)
     assert (result.exit_code, result.stderr) == (143, "Error: terminated by SIGTERM\n")
     assert signal.getsignal(signal.SIGTERM) is before
@@ -173,7 +173,7 @@ def test_what_is_ignored_stays_ignored(run, monkeypatch):
 
     before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
     try:
-        monkeypatch.setattr(saving, "_check_whole", hang_up)
+        monkeypatch.setattr(saving, "_check_complete", hang_up)
         assert call(*run).exit_code == 0
         assert signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
     finally:
@@ -184,7 +184,7 @@ def test_handlers_are_there_again_after_a_native_step(run, monkeypatch):
     # Which one there is while the mesh is saved.
     handlers = []
     monkeypatch.setattr(
-        saving, "_check_whole", lambda *_: handlers.append(signal.getsignal(signal.SIGTERM))
+        saving, "_check_complete", lambda *_: handlers.append(signal.getsignal(signal.SIGTERM))
     )
     assert call(*run).exit_code == 0
     assert handlers

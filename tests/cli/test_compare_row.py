@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from meshlab_willmore.cli import trials
-from meshlab_willmore.cli.trials import Outcome, Task
+from meshlab_willmore.cli import compare_row
+from meshlab_willmore.cli.compare_row import Comparison, Outcome
 from meshlab_willmore.compare import contenders
 from meshlab_willmore.compare.contenders import Contender, ours
 
@@ -30,7 +30,7 @@ FAULTY = Contender("faulty", "apply_coord_laplacian_smoothing", {"nonsense": 1})
 
 @pytest.fixture
 def task():
-    return Task(str(cube_file()), None, 300.0)
+    return Comparison(str(cube_file()), None, 300.0)
 
 
 @pytest.fixture(autouse=True)
@@ -46,8 +46,8 @@ def temporary(tmp_path_factory, monkeypatch):
 @pytest.mark.slow
 def test_a_row_goes_through_its_phases(task):
     said = []
-    outcome = trials.run(task, OWN, said.append)
-    assert said == [trials.WARMING, trials.RUNNING, trials.MEASURING]
+    outcome = compare_row.run(task, OWN, said.append)
+    assert said == [compare_row.WARMING, compare_row.RUNNING, compare_row.MEASURING]
     assert outcome.seconds > 0.0
     assert outcome.figures["flips"] == 10
 
@@ -56,16 +56,16 @@ def test_a_row_goes_through_its_phases(task):
 def test_a_filter_that_is_too_slow_is_killed(task):
     said = []
     start = time.perf_counter()
-    outcome = trials.run(task._replace(timeout=0.5), ENDLESS, said.append)
+    outcome = compare_row.run(task._replace(timeout=0.5), ENDLESS, said.append)
     assert outcome == Outcome(timed_out=True)
-    assert said[-1] == trials.RUNNING
+    assert said[-1] == compare_row.RUNNING
     assert time.perf_counter() - start < PATIENCE
 
 
 @pytest.mark.slow
 def test_a_crash_is_told_and_a_fault_has_its_reason(task):
-    assert trials.run(task, DEADLY, print).error.startswith("crashed (SIG")
-    outcome = trials.run(task, FAULTY, print)
+    assert compare_row.run(task, DEADLY, print).error.startswith("crashed (SIG")
+    outcome = compare_row.run(task, FAULTY, print)
     assert "nonsense" in outcome.error
     assert "\n" not in outcome.error
     assert outcome.trace.startswith("Traceback")
@@ -73,74 +73,66 @@ def test_a_crash_is_told_and_a_fault_has_its_reason(task):
 
 
 def test_a_process_that_does_not_begin_is_told(task, monkeypatch):
-    monkeypatch.setattr(trials, "_PROGRAM", "import sys; sys.exit(3) # {path} {module}")
-    assert trials.run(task, OWN, print).error == "the process ended with exit code 3"
+    monkeypatch.setattr(compare_row, "_PROGRAM", "import sys; sys.exit(3) # {path} {module}")
+    assert compare_row.run(task, OWN, print).error == "the process ended with exit code 3"
 
 
 def test_the_filter_is_warmed_up_before_the_clock_starts(task, monkeypatch):
     events = []
     monkeypatch.setattr(contenders, "warm_up", lambda *given: events.append(given))
-    job = {"source": task.source, "reference": None, "filter": OWN.filter, "given": OWN.given}
-    trials._outcome(job, events.append)
+    given = {"filter": OWN.filter, "given": OWN.given}
+    compare_row._outcome(**task._asdict(), **given, say=events.append)
     warmed = (OWN.filter, OWN.given)
-    assert events == [trials.WARMING, warmed, trials.RUNNING, trials.MEASURING]
+    assert events == [compare_row.WARMING, warmed, compare_row.RUNNING, compare_row.MEASURING]
 
 
 def test_what_a_filter_prints_is_no_answer(task, monkeypatch):
     noisy = (
         "import os, sys; sys.path[:] = {path!r}; from {module} import main, Outcome\n"
-        "import {module} as trials\n"
-        "trials._outcome = lambda job, say: Outcome(float(os.write(1, b'noise\\n')))\n"
+        "import {module} as row\n"
+        "row._outcome = lambda **_: Outcome(float(os.write(1, b'noise\\n')))\n"
         "main()"
     )
-    monkeypatch.setattr(trials, "_PROGRAM", noisy)
-    assert trials.run(task, OWN, print) == Outcome(6.0)
+    monkeypatch.setattr(compare_row, "_PROGRAM", noisy)
+    assert compare_row.run(task, OWN, print) == Outcome(6.0)
 
 
 def test_files_that_a_dead_process_left_are_removed(task, monkeypatch):
     # The fixture looks into the folder.
     program = "import os, tempfile; tempfile.mkdtemp(); os.abort() # {path} {module}"
-    monkeypatch.setattr(trials, "_PROGRAM", program)
-    assert trials.run(task, OWN, print).error == "crashed (SIGABRT)"
+    monkeypatch.setattr(compare_row, "_PROGRAM", program)
+    assert compare_row.run(task, OWN, print).error == "crashed (SIGABRT)"
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="loads in a process of its own on Linux")
 def test_a_load_that_does_not_end_is_ended_with_its_process(monkeypatch):
     """Else the end would wait for it: it holds the pipe of the answers."""
-    program = "import os, time; print(os.fork() > 0, flush=True); time.sleep(1000)"
-    monkeypatch.setattr(trials, "_PROGRAM", program)
-    with trials._process() as process:
-        assert {process.stdout.readline() for _ in range(2)} == {"True\n", "False\n"}
+    program = "import os, time; os.write(1, b'%d\\n' % os.fork()); time.sleep(1000)"
+    monkeypatch.setattr(compare_row, "_PROGRAM", program)
+    with compare_row._subprocess() as process:
+        children = {int(process.stdout.readline()) for _ in range(2)}
+    assert 0 in children
 
 
 def test_modules_of_the_working_directory_hide_no_others(task):
     Path("json.py").write_text("raise ImportError('a file of the user')")
     Path("click.py").write_text("raise ImportError('a file of the user')")
     initial = Contender("initial", "", {})
-    assert trials.run(task, initial, print).figures["area"] == pytest.approx(6.22709, abs=1e-5)
+    assert compare_row.run(task, initial, print).figures["area"] == pytest.approx(6.22709, abs=1e-5)
 
 
 @pytest.mark.slow
-def test_the_clock_runs_while_the_filter_does():
-    class Process:
-        killed = False
-
-        def kill(self):
-            self.killed = True
-
-    def killed_after(*words):
-        process = Process()
-        stopwatch = trials._Stopwatch(0.1, process)
-        for word in words:
-            stopwatch.note(word)
-        time.sleep(0.5)
-        assert process.killed == stopwatch.ran_out
-        return process.killed
-
-    assert not killed_after(trials.WARMING)
-    assert killed_after(trials.WARMING, trials.RUNNING)
-    assert not killed_after(trials.WARMING, trials.RUNNING, trials.MEASURING)
-    assert not killed_after(trials.WARMING, trials.RUNNING, {"error": "x"})
+def test_the_time_limit_is_for_the_filter_alone(task, monkeypatch):
+    slow = (
+        "import sys, time; sys.path[:] = {path!r}; from {module} import main\n"
+        "from meshlab_willmore.compare import contenders\n"
+        "contenders.warm_up = lambda *_: time.sleep(1.5)\n"
+        "main()"
+    )
+    monkeypatch.setattr(compare_row, "_PROGRAM", slow)
+    native = Contender("quick", "set_selection_all", {})
+    outcome = compare_row.run(task._replace(timeout=1.0), native, print)
+    assert (outcome.timed_out, outcome.error) == (False, None)
 
 
 # --- signals -----------------------------------------------------------------------------------
@@ -161,7 +153,7 @@ subprocess.Popen = Noted
 def show(bar, name, word):
     if (name, word) == ("endless", "running"):
         Path("ready").touch()
-compare._show = show
+compare._show_phase = show
 main(sys.argv[1:], prog_name="meshlab-willmore")
 """
 

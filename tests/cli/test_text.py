@@ -2,7 +2,7 @@
 
 import pytest
 
-from meshlab_willmore.cli.columns import fitted, in_columns, width
+from meshlab_willmore.cli.text import fitted, in_columns, width
 
 from .conftest import call, cube_file
 

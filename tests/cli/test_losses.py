@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshlab_willmore.cli import inputs
+from meshlab_willmore.cli import loading
 
 from .conftest import ONE_PIXEL, SAMPLES, call, cube_file, square_with_textures
 
@@ -27,7 +27,7 @@ end_header
 
 
 def told(path, capsys):
-    inputs.loaded(Path(path))
+    loading.loaded(Path(path))
     captured = capsys.readouterr()
     assert captured.out == ""
     lines = captured.err.splitlines()
@@ -187,14 +187,14 @@ def as_3ds(*names):
 @pytest.mark.parametrize("names", ["a", "ab", "abc"])
 def test_several_meshes_in_a_file(names, capsys):
     Path("a.3ds").write_bytes(as_3ds(*names))
-    note = f"it holds {len(names)} meshes; the last one is taken, others are layers"
+    note = f"it holds {len(names)} meshes; the last one is used, the others are layers"
     assert told("a.3ds", capsys) == [note] * (len(names) > 1)
 
 
 def test_ordinary_files_give_no_note(capsys):
     for name in ("bone.ply", "airplane.obj", "colored_airplane.ply", "bunny10k_textured.obj"):
-        inputs.loaded(SAMPLES / name)
-    inputs.loaded(cube_file())
+        loading.loaded(SAMPLES / name)
+    loading.loaded(cube_file())
     assert capsys.readouterr().err == ""
 
 
@@ -215,7 +215,7 @@ OBJ = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\n"
 )
 def test_faces_of_a_text_whose_vertices_are_not_there(more, lost, capsys):
     Path("a.obj").write_text(OBJ + more)
-    assert told("a.obj", capsys) == [f"faces with vertices that are not there, left out: {lost}"]
+    assert told("a.obj", capsys) == [f"faces with vertices that do not exist, left out: {lost}"]
 
 
 @pytest.mark.parametrize("more", ["f 1 3 4\n", "f 1 2 3 4\n", "vn 0 0 1\nf 1//1 3//1 4//1\n"])

@@ -6,7 +6,7 @@ import numpy as np
 import pymeshlab
 import pytest
 
-from meshlab_willmore.cli.saving import Wish, save
+from meshlab_willmore.cli.saving import SaveOptions, save
 from tests import meshes
 
 from .conftest import SAMPLES
@@ -18,7 +18,7 @@ FACES = np.array([[0, 1, 2], [0, 2, 3]])
 def told(name, capsys, wish=None, **given):
     ms = pymeshlab.MeshSet()
     ms.add_mesh(pymeshlab.Mesh(**{"vertex_matrix": SQUARE, "face_matrix": FACES, **given}))
-    save(ms, Path(name), wish or Wish())
+    save(ms, Path(name), wish or SaveOptions())
     captured = capsys.readouterr()
     assert captured.out == ""
     return captured.err
@@ -62,17 +62,17 @@ def test_an_ordinary_mesh_gives_no_note(ending, capsys):
 
 
 def test_of_what_was_not_asked_for_nothing_is_missed(capsys):
-    assert told("a.stl", capsys, Wish(parts=("fc",)), **PARTS["vertex colours"]) == ""
-    note = told("b.stl", capsys, Wish(parts=("fc",)), **PARTS["edges"])
+    assert told("a.stl", capsys, SaveOptions(parts=("fc",)), **PARTS["vertex colours"]) == ""
+    note = told("b.stl", capsys, SaveOptions(parts=("fc",)), **PARTS["edges"])
     assert note == "Note: b.stl: .stl files hold no edges\n"
 
 
 def test_a_texture_goes_where_it_can(capsys):
     ms = pymeshlab.MeshSet()
     ms.load_new_mesh(str(SAMPLES / "bunny10k_textured.obj"))
-    save(ms, Path("a.wrl"), Wish())
+    save(ms, Path("a.wrl"), SaveOptions())
     assert capsys.readouterr().err == ""
-    save(ms, Path("a.off"), Wish())
+    save(ms, Path("a.off"), SaveOptions())
     assert capsys.readouterr().err == "Note: a.off: .off files hold no texture coordinates\n"
 
 

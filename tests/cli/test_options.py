@@ -3,12 +3,12 @@
 import itertools
 from pathlib import Path
 
+import click
 import pytest
 
-from meshlab_willmore.cli.errors import WrongUse
-from meshlab_willmore.cli.masks import is_part
-from meshlab_willmore.cli.output_words import by_output, plain, without_empty_masks
-from meshlab_willmore.cli.scripts import is_script
+from meshlab_willmore.cli import flip
+from meshlab_willmore.cli import run as run_module
+from meshlab_willmore.cli.options import GONE, take_outputs
 
 from .conftest import TAUBIN, call, cube_file, listing, loaded, script_file
 
@@ -16,38 +16,62 @@ SQUARE = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n"
 TRIANGLE = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
 
 
-def words(line):
-    return " ".join(plain(line.split(), is_script, is_part))
+def taken(line):
+    """The outputs as words, and the rest of a command line."""
+    context = click.Context(run_module.command, info_name="run")
+    outputs, rest = take_outputs(line.split(), context)
+    shown = [
+        " ".join([o.name, *o.parts, *([f"layer={o.layer}"] if o.layer else [])]) for o in outputs
+    ]
+    return shown, " ".join(rest)
 
 
 @pytest.mark.parametrize(
-    ("line", "said"),
+    ("line", "outputs", "rest"),
     [
-        ("-o a.ply -l 1", "-o a.ply --layer 1"),
-        ("-o a.ply -l c -m vc vn", "-o a.ply --layer c -m vc vn"),
-        ("-o a.ply -m vc vn -l x", "-o a.ply -m vc vn --layer x"),
-        ("-oa.ply -l12 -i b.ply", "-o a.ply --layer 12 -i b.ply"),
-        ("--output=a.ply -l 0 s.mlx", "-o a.ply --layer 0 s.mlx"),
-        ("-l log.txt -o a.ply -l 1", "--log log.txt -o a.ply --layer 1"),
-        ("-llog.txt -o a.ply", "--log log.txt -o a.ply"),
-        ("-l - -o a.ply", "--log - -o a.ply"),
+        ("", [], ""),
+        ("s.mlx -i a", [], "s.mlx -i a"),
+        ("-i a b c -o x y", ["x", "y"], "-i a -i b -i c"),
+        ("-i a -i b c", [], "-i a -i b -i c"),
+        ("-i a s.mlx b", [], "-i a s.mlx b"),
+        ("-i s.mlx", [], "-i s.mlx"),
+        ("-i a - b", [], "-i a - b"),
+        ("-i a -- b c", [], "-i a -- b c"),
+        ("-ia b --input=c", [], "-i a -i b -i c"),
+        ("-o a.ply -l 1", ["a.ply layer=1"], ""),
+        ("-o a.ply -l c -m vc vn", ["a.ply vc vn layer=c"], ""),
+        ("-o a.ply -m vc vn -l x", ["a.ply vc vn layer=x"], ""),
+        ("-oa.ply -l12 -i b.ply", ["a.ply layer=12"], "-i b.ply"),
+        ("-omesh.ply -mmp", ["mesh.ply mp"], ""),
+        ("--output=a.ply -l 0 s.mlx", ["a.ply layer=0"], "s.mlx"),
+        ("-l log.txt -o a.ply -l 1", ["a.ply layer=1"], "--log log.txt"),
+        ("-llog.txt -o a.ply", ["a.ply"], "--log log.txt"),
+        ("-l - -o a.ply", ["a.ply"], "--log -"),
         # So it was in every meshlabserver.
-        ("-i a.ply -o b.ply -s s.mlx -l log.txt", "-i a.ply -o b.ply -s s.mlx --log log.txt"),
-        (
-            "-o a.ply b.obj -m vc -l x -i c.ply",
-            "-o a.ply -m vc --layer x -o b.obj -m vc --layer x -i c.ply",
-        ),
-        ("-o a.ply b.ply s.mlx c.ply", "-o a.ply -o b.ply s.mlx c.ply"),
-        ("-o a.ply -", "-o a.ply -"),
-        ("-o a.ply -l 1 -o b.ply -l 0", "-o a.ply --layer 1 -o b.ply --layer 0"),
-        ("--layers -o a.ply --log 1", "--layers -o a.ply --log 1"),
-        ("-o a.ply -- -l 1", "-o a.ply -- -l 1"),
-        ("-o", "-o"),
-        ("-l", "--log"),
+        ("-i a -o b.ply -s s.mlx -l log.txt", ["b.ply"], "-i a -s s.mlx --log log.txt"),
+        ("-o a b -m vc -l x -i c", ["a vc layer=x", "b vc layer=x"], "-i c"),
+        ("-o a.ply b.ply s.mlx c.ply", ["a.ply", "b.ply"], "s.mlx c.ply"),
+        ("-o a.ply -", ["a.ply"], "-"),
+        ("-o a -l 1 -o b -l 0", ["a layer=1", "b layer=0"], ""),
+        ("-o a --force --layer=2", ["a layer=2"], "--force"),
+        ("--layers -o a.ply --log 1", ["a.ply"], "--layers --log 1"),
+        ("-o a.ply -- -l 1", ["a.ply"], "-- -l 1"),
+        ("-l", [], "--log"),
+        ("-m vc vn fq s.mlx", [], "s.mlx"),
+        ("-m vc -o a -m vn -o b", ["a vc vn", "b vc"], ""),
+        ("-o a -m vc -o b", ["a vc", "b"], ""),
+        ("-m vc -o a -m vn -o b -m vq fc", ["a vc vn", "b vc vq fc"], ""),
+        ("-o a --force --mask=vq", ["a vq"], "--force"),
+        ("-o a -om vc vn s.mlx", ["a vc vn"], "s.mlx"),
+        # meshlabserver took an empty mask.
+        ("-o a -s s.mlx -om", ["a"], "-s s.mlx"),
+        ("-o a -om -s s.mlx", ["a"], "-s s.mlx"),
+        ("-o a -om s.mlx", ["a"], "s.mlx"),
+        ("-i -- -om -p", [], "-i -- -om -p"),
     ],
 )
-def test_words(line, said):
-    assert words(line) == said
+def test_outputs_with_their_masks_and_layers(line, outputs, rest):
+    assert taken(line) == (outputs, rest)
 
 
 @pytest.mark.parametrize(
@@ -55,35 +79,48 @@ def test_words(line, said):
     [
         (
             "-o a.ply -l log.txt",
-            r"-l log\.txt behind -o a\.ply is no layer \(.*\); for a log, type --log log",
+            r"-l log\.txt behind -o a\.ply is no layer \(.*\); for a log, write --log log",
         ),
         ("-o a.ply -l l", "-l l behind -o a.ply is no layer"),
-        ("-o a.ply -l -1", "-l behind -o a.ply wants the layer"),
-        ("-o a.ply -l", "-l behind -o a.ply wants the layer"),
+        ("-o a.ply -l -1", "-l behind -o a.ply needs the layer"),
+        ("-o a.ply -l", "-l behind -o a.ply needs the layer"),
         ("-o a.ply -l 1 -l 2", "-o a.ply has two layers, 1 and 2"),
         (
             "-l 1 -o a.ply",
-            "-l 1 before every -o is a layer or a log; .* behind -o FILE, .* --log 1",
+            "-l 1 before every -o can be a layer or a log; .* behind -o FILE, .* --log 1",
         ),
-        ("-o a.ply -s s.mlx -l 1", "-l 1 apart from its -o is a layer or a log"),
+        ("-o a.ply -s s.mlx -l 1", "-l 1 apart from its -o can be a layer or a log"),
         ("-o a.ply --force -l x", "-l x apart from its -o"),
+        ("-o a -l 1 -o b", "-o b has no layer, but others have; add -l c"),
+        ("-o a -o b -l 1", "-o a has no layer, but others have; add -l c"),
+        ("--layer 1 -o a", "--layer 1 stands before every -o"),
+        ("-o a --layer one", "--layer one: it must be"),
+        ("-o a --layer", "Option '--layer' requires an argument"),
+        ("-o", "Option '-o' requires an argument"),
+        ("-o -i a", "Option '-o' requires an argument"),
+        ("-o a -m", "Option '-m' requires an argument"),
+        # The first word is the option's even if it is wrong.
+        ("-m xx vc", "'xx' is not one of 'vc'"),
+        *((f"s.mlx {word}", f"^{word} of meshlabserver is gone: ") for word in GONE),
     ],
 )
-def test_what_can_be_meant_in_two_ways_is_an_error(line, problem):
-    with pytest.raises(WrongUse, match=problem):
-        words(line)
+def test_wrong_and_ambiguous_words_are_errors(line, problem):
+    with pytest.raises(click.ClickException, match=problem):
+        taken(line)
 
 
-def test_layers_belong_to_the_output_before_them():
-    order = ["inputs", "patterns", "layer", "parts", "patterns", "layer"]
-    assert by_output(order, ["1", "x"], ["a", "b"]) == ["1", "x"]
-    assert by_output(["patterns", "patterns"], [], ["a", "b"]) == ["", ""]
-    with pytest.raises(WrongUse, match="-o b has no layer, but others have; add -l c"):
-        by_output(["patterns", "layer", "patterns"], ["1"], ["a", "b"])
-    with pytest.raises(WrongUse, match="--layer 1 stands before every -o"):
-        by_output(["layer", "patterns"], ["1"], ["a"])
-    with pytest.raises(WrongUse, match="--layer one: it can be"):
-        by_output(["patterns", "layer"], ["one"], ["a"])
+@pytest.mark.parametrize(
+    ("written", "parts"),
+    [
+        ("-m vc vn fq", ["vc", "vn", "fq"]),
+        ("-mvc vn", ["vc", "vn"]),
+        ("--mask vc -m mp", ["vc", "mp"]),
+    ],
+)
+def test_masks_of_flip_take_several_values(written, parts):
+    context = flip.command.make_context("flip", ["in.ply", *written.split(), "--", "out.ply"])
+    assert list(context.params["parts"]) == parts
+    assert context.params["target"] == Path("out.ply")
 
 
 @pytest.fixture
@@ -175,19 +212,6 @@ def test_every_combination_of_two_outputs(run):
         assert call(*run, *outputs, "--force").exit_code == 0
         sizes = [SIZES["square" if layer == "1" else "triangle"] for layer in (one, two)]
         assert [len(loaded(f"{name}.ply").vertices) for name in "ab"] == sizes
-
-
-@pytest.mark.parametrize(
-    ("line", "said"),
-    [
-        ("-i a.ply -o b.ply -s s.mlx -om", "-i a.ply -o b.ply -s s.mlx"),
-        ("-o b.ply -om -s s.mlx", "-o b.ply -s s.mlx"),
-        ("-o b.ply -om s.mlx", "-o b.ply s.mlx"),
-        ("-o b.ply -om vc s.mlx", "-o b.ply -om vc s.mlx"),
-    ],
-)
-def test_an_old_mask_with_nothing_in_it_is_none(line, said):
-    assert " ".join(without_empty_masks(line.split(), is_script)) == said
 
 
 @pytest.mark.parametrize(

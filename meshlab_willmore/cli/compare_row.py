@@ -1,0 +1,288 @@
+"""One row of a comparison, computed in a subprocess.
+
+A native filter can't be interrupted, and may crash. The subprocess gets its task as a line on its
+standard input, and ends when that is closed: with the parent, however that ended. It answers with
+lines of JSON: the name of each phase that begins, and the outcome last.
+"""
+
+from __future__ import annotations
+
+import faulthandler
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+import traceback
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any, NamedTuple
+
+from .. import machine
+from . import loading
+from .errors import WrongUse, reason
+from .paths import check_input
+
+if TYPE_CHECKING:
+    from ..compare.contenders import Contender
+    from ..compare.reference import Reference, Sphere, Torus
+
+# The phases, in their order.
+READING = "reading"
+WARMING = "warming up"
+RUNNING = "running"
+MEASURING = "measuring"
+
+REFERENCES = "sphere, sphere:2 or torus:3,1"
+
+# No file of the working folder may hide a module.
+_PROGRAM = "import sys; sys.path[:] = {path!r}; from {module} import main; main()"
+# The exit code of a subprocess whose filter takes too long.
+_TOO_SLOW = 1
+
+
+class Comparison(NamedTuple):
+    """What all rows have in common.
+
+    Attributes
+    ----------
+    source : str
+        The file of the mesh.
+    reference : str or None
+        The surface that the mesh should be like, as `read_reference` takes it.
+    timeout : float
+        Seconds that a filter may take.
+    """
+
+    source: str
+    reference: str | None
+    timeout: float
+
+
+class Outcome(NamedTuple):
+    """The result of a row.
+
+    Attributes
+    ----------
+    seconds : float or None
+        Time of the filter alone; None if there was none, or it did not end.
+    figures : dict or None
+        As `meshlab_willmore.compare.figures.Figures`; None if there is no mesh.
+    error : str or None
+        What went wrong, in a line. A filter that is too slow is no error.
+    of_machine : bool
+        Whether the machine is at fault, not the mesh or the filter.
+    timed_out : bool
+        Whether the filter took too long.
+    trace : str
+        The traceback of an error.
+    """
+
+    seconds: float | None = None
+    figures: dict[str, Any] | None = None
+    error: str | None = None
+    of_machine: bool = False
+    timed_out: bool = False
+    trace: str = ""
+
+
+def run(comparison: Comparison, contender: Contender, say: Callable[[str], None]) -> Outcome:
+    """Compute one row; `say` is called with each phase that begins."""
+    task = {**comparison._asdict(), "filter": contender.filter, "given": contender.given}
+    phase = READING
+    with _subprocess() as process:
+        for answer in _answers(process, task):
+            if not isinstance(answer, str):
+                return Outcome(**answer)
+            phase = answer
+            say(phase)
+        code = process.wait()
+    if phase == RUNNING and code == _TOO_SLOW:
+        return Outcome(timed_out=True)
+    if code < 0:
+        return Outcome(error=f"crashed ({signal.Signals(-code).name})")
+    return Outcome(error=f"the process ended with exit code {code}")
+
+
+@contextmanager
+def _subprocess() -> Iterator[subprocess.Popen[str]]:
+    """A process with a folder for temporary files; both are removed in the end."""
+    program = _PROGRAM.format(path=sys.path, module=__name__)
+    with machine.temporary_folder() as place:
+        folder = str(place)
+        process = subprocess.Popen(
+            [sys.executable, "-c", program],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+            env={**os.environ, "TMPDIR": folder, "TEMP": folder, "TMP": folder},
+            # Ctrl-C on a terminal is for the parent alone, which then ends this process.
+            start_new_session=True,
+        )
+        try:
+            yield process
+        finally:
+            if hasattr(os, "killpg") and process.poll() is None:
+                # With the process in which it loads a mesh: the session is a group.
+                with suppress(ProcessLookupError):
+                    os.killpg(process.pid, signal.SIGKILL)
+            process.kill()
+            process.communicate()
+
+
+def _answers(process: subprocess.Popen[str], task: dict[str, Any]) -> Iterator[Any]:
+    """What the process answers, until it ends."""
+    assert process.stdin is not None
+    assert process.stdout is not None
+    try:
+        process.stdin.write(json.dumps(task) + "\n")
+        process.stdin.flush()
+    except BrokenPipeError:
+        return
+    for line in process.stdout:
+        yield json.loads(line)
+
+
+# --- in the subprocess -------------------------------------------------------------------------
+
+
+def main() -> None:
+    """Do the task on the standard input."""
+    answers = _own_stream()
+    task = json.loads(sys.stdin.readline())
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+    def say(answer: object) -> None:
+        print(json.dumps(answer), file=answers, flush=True)
+
+    try:
+        outcome = _outcome(say=say, **task)
+    except Exception as error:
+        fault = machine.fault_of(error)
+        outcome = Outcome(
+            error=reason(fault or error),
+            of_machine=fault is not None,
+            trace=traceback.format_exc(),
+        )
+    say(outcome._asdict())
+
+
+def _own_stream() -> IO[str]:
+    """A stream to the parent into which nobody else prints, as PyMeshLab's C++ code does."""
+    answers = os.fdopen(os.dup(1), "w")
+    with open(os.devnull, "wb") as sink:
+        os.dup2(sink.fileno(), 1)
+    return answers
+
+
+def _end_with_parent() -> None:
+    """Wait for the end of the standard input, without Python's buffer and its lock."""
+    os.read(0, 1)
+    os._exit(1)
+
+
+def _outcome(
+    source: str,
+    reference: str | None,
+    timeout: float,
+    filter: str,
+    given: dict[str, Any],
+    say: Callable[[str], None],
+) -> Outcome:
+    from ..compare.contenders import warm_up
+    from ..compare.figures import arrays, figures
+
+    ms = loading.loaded(Path(source))
+    _, faces = arrays(ms)
+    if len(faces) == 0:
+        raise ValueError("the mesh has no faces, it is a point cloud")
+    surface = read_reference(reference) if reference else None
+    seconds = None
+    if filter:
+        say(WARMING)
+        warm_up(filter, given)
+        say(RUNNING)
+        with _ended_after(timeout):
+            start = time.perf_counter()
+            ms.apply_filter(filter, **given)
+            seconds = time.perf_counter() - start
+    say(MEASURING)
+    return Outcome(seconds, figures(ms, faces, surface)._asdict())
+
+
+@contextmanager
+def _ended_after(seconds: float) -> Iterator[None]:
+    """End the process if what is inside takes longer, even in native code."""
+    with open(os.devnull, "w") as sink:
+        faulthandler.dump_traceback_later(seconds, exit=True, file=sink)
+        try:
+            yield
+        finally:
+            faulthandler.cancel_dump_traceback_later()
+
+
+# --- the reference -----------------------------------------------------------------------------
+
+
+def check_reference(text: str) -> None:
+    """Raise `WrongUse` unless it is the name of a surface, or a file that can be read."""
+    if _named_surface(text) is None:
+        try:
+            check_input(Path(text))
+        except WrongUse as error:
+            raise WrongUse(
+                f"--reference: {error} (nor is it a surface such as {REFERENCES})"
+            ) from error
+
+
+def read_reference(text: str) -> Reference:
+    """The surface of a name, or of a file.
+
+    Raises
+    ------
+    WrongUse
+        As `check_reference`.
+    OSError
+        If the file holds no mesh, or one without faces.
+    """
+    from ..compare.figures import arrays
+    from ..compare.reference import Surface
+
+    named = _named_surface(text)
+    if named is not None:
+        return named
+    check_reference(text)
+    surface = Surface(*arrays(loading.loaded(Path(text))))
+    if len(surface.faces) == 0:
+        raise OSError(f"{text} can't be the reference: it is a point cloud, without faces")
+    return surface
+
+
+def _named_surface(text: str) -> Sphere | Torus | None:
+    """The sphere or torus; None if it must be a file."""
+    from ..compare.reference import Sphere, Torus
+
+    name, colon, sizes = text.partition(":")
+    if text != "sphere" and not (colon and name in ("sphere", "torus")):
+        return None
+    radii = [_radius(text, size) for size in sizes.split(",")] if colon else []
+    if name == "sphere" and len(radii) <= 1:
+        return Sphere(*radii)
+    if name == "torus" and len(radii) == 2:
+        return Torus(*radii)
+    raise WrongUse(f"--reference {text}: it can be {REFERENCES} (ring, tube), or a file")
+
+
+def _radius(text: str, size: str) -> float:
+    try:
+        radius = float(size)
+    except ValueError:
+        radius = math.nan
+    if not (math.isfinite(radius) and radius > 0.0):
+        raise WrongUse(f"--reference {text}: {size!r} is no radius; it can be {REFERENCES}")
+    return radius

@@ -1,0 +1,225 @@
+"""Options that several commands have, and those of `run` in the spelling of `meshlabserver`.
+
+Its ``-i``, ``-o`` and ``-m`` take several values. Its ``-l`` was a log; since 2017 it is also the
+layer that the ``-o`` just before it saves.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import deque
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import click
+
+from .errors import WrongUse
+from .formats import MANNERS, PARTS
+from .paths import Output, is_script
+
+LAYER_HELP = "a place from 0, c for the current layer, or x for the last one"
+
+# Options of meshlabserver that are gone, and what does their work.
+GONE = {
+    "-p": "projects are not read; name their meshes after -i, with --layers",
+    "-w": "projects are not written; each layer can have an -o of its own",
+    "-x": "--force overwrites existing files",
+    "-d": "'meshlab-willmore filters' lists the filters and their parameters",
+}
+
+_PART = click.Choice([*PARTS, *MANNERS])
+_LAYER = re.compile(r"\d+|c|x")
+
+_INPUT, _OUTPUT, _MASK = ("-i", "--input"), ("-o", "--output"), ("-m", "--mask", "-om")
+# A name with its value attached.
+_ATTACHED = re.compile(r"(?!-om$)(-[ioml])(.+)|(--(?:input|output|mask|layer))=(.*)", re.DOTALL)
+
+force_option = click.option("--force", is_flag=True, help="Overwrite existing files.")
+json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+
+
+def mask_option(**more: Any) -> Callable[..., Any]:
+    """The option ``-m``."""
+    return click.option(
+        "--mask",
+        "-m",
+        "parts",
+        multiple=True,
+        type=_PART,
+        metavar="PART...",
+        help="Save these parts besides positions and faces, and no others: v, f or w (vertex, "
+        "face, wedge) followed by c, f, q, n, t or r (colour, flags, quality, normal, texture, "
+        "radius), for example: vc fq wt. mp keeps polygons, sa writes text. Default: the parts "
+        "that PyMeshLab saves.",
+        **more,
+    )
+
+
+def is_part(word: str) -> bool:
+    """Whether a word is a value of ``-m``."""
+    return word in PARTS or word in MANNERS
+
+
+def _is_input(word: str) -> bool:
+    return not is_script(word)
+
+
+class _Words:
+    """The arguments up to ``--``, taken one after the other."""
+
+    def __init__(self, args: Sequence[str]) -> None:
+        end = list(args).index("--") if "--" in args else len(args)
+        self.left = deque(args[:end])
+        self.after_end = list(args[end:])
+
+    def __bool__(self) -> bool:
+        return bool(self.left)
+
+    def take(self) -> tuple[str, str, list[str]]:
+        """The next word, and the option's name and attached value in it."""
+        word = self.left.popleft()
+        found = _ATTACHED.fullmatch(word)
+        return (word, found[1] or found[3], [found[2] or found[4]]) if found else (word, word, [])
+
+    def take_values(self, attached: list[str], belongs: Callable[[str], bool]) -> list[str]:
+        """The values of an option; the first one is taken even if it does not belong to it."""
+        values = list(attached)
+        while self.left and _is_value(self.left[0]) and (not values or belongs(self.left[0])):
+            values.append(self.left.popleft())
+        return values
+
+    def take_value(self, attached: list[str]) -> list[str]:
+        """At most one value."""
+        return self.take_values(attached, lambda _: False)
+
+
+def _is_value(word: str) -> bool:
+    return word == "-" or not word.startswith("-")
+
+
+class SeveralParts(click.Command):
+    """A command whose ``-m`` takes several values."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Repeat the option's name before each value, for click."""
+        words = _Words(args)
+        rest: list[str] = []
+        while words:
+            word, name, attached = words.take()
+            parts = words.take_values(attached, is_part) if name in _MASK else []
+            rest += [w for part in parts for w in ("-m", part)] or [word]
+        return super().parse_args(ctx, [*rest, *words.after_end])
+
+
+def take_outputs(args: Sequence[str], ctx: click.Context) -> tuple[list[Output], list[str]]:
+    """Take the outputs, with their masks and layers, out of the arguments of `run`.
+
+    Returns
+    -------
+    outputs : list of Output
+        In their order. A mask or layer is for all names of the ``-o`` before it; a mask before
+        every ``-o`` is for all outputs.
+    rest : list of str
+        The other arguments for click, with ``--log`` for an ``-l`` that is a log.
+
+    Raises
+    ------
+    WrongUse
+        For an option that is gone, and for a layer that is wrong or ambiguous.
+    click.UsageError
+        For a value that is missing, or is no part.
+    """
+    words = _Words(args)
+    for word in words.left:
+        if word in GONE:
+            raise WrongUse(f"{word} of meshlabserver is gone: {GONE[word]}")
+    done: list[Output] = []
+    # Those of the last -o, and whether nothing but their own options has come since.
+    last: list[Output] = []
+    is_behind = False
+    common: tuple[str, ...] = ()
+    rest: list[str] = []
+    while words:
+        word, name, attached = words.take()
+        if name in _OUTPUT:
+            names = words.take_values(attached, _is_input)
+            done, last, is_behind = [*done, *last], [Output(n, common) for n in names], True
+            _check_given(name, names, ctx)
+        elif name in _MASK:
+            parts = _parts(name, words, attached, ctx)
+            common += () if last else parts
+            last = [output._replace(parts=(*output.parts, *parts)) for output in last]
+        elif name == "--layer" or (name == "-l" and is_behind):
+            layer = _layer(name, words.take_value(attached), last, ctx)
+            last = [output._replace(layer=layer) for output in last]
+        elif name == "-l":
+            values = words.take_value(attached)
+            _check_log("".join(values), bool(last))
+            rest += ["--log", *values]
+        elif name in _INPUT:
+            values = words.take_values(attached, _is_input)
+            rest += [w for value in values for w in ("-i", value)] or [word]
+            is_behind = False
+        else:
+            rest.append(word)
+            is_behind = False
+    outputs = [*done, *last]
+    _check_layers(outputs)
+    return outputs, [*rest, *words.after_end]
+
+
+def _check_given(name: str, values: Sequence[str], ctx: click.Context) -> None:
+    if not values:
+        raise click.BadOptionUsage(name, f"Option {name!r} requires an argument.", ctx)
+
+
+def _parts(name: str, words: _Words, attached: list[str], ctx: click.Context) -> tuple[str, ...]:
+    if name == "-om" and not (words and _is_value(words.left[0]) and _is_input(words.left[0])):
+        # meshlabserver took an empty mask.
+        return ()
+    parts = words.take_values(attached, is_part)
+    _check_given(name, parts, ctx)
+    option = next(param for param in ctx.command.params if param.name == "parts")
+    return tuple(_PART.convert(part, option, ctx) for part in parts)
+
+
+def _layer(name: str, values: Sequence[str], outputs: Sequence[Output], ctx: click.Context) -> str:
+    """The layer for outputs."""
+    if name == "--layer":
+        _check_given(name, values, ctx)
+        if not outputs:
+            raise WrongUse(f"--layer {values[0]} stands before every -o; put it behind one")
+        if not _LAYER.fullmatch(values[0]):
+            raise WrongUse(f"--layer {values[0]}: it must be {LAYER_HELP}")
+    if not values:
+        raise WrongUse(f"-l behind -o {outputs[0].name} needs the layer to save: {LAYER_HELP}")
+    if outputs[0].layer:
+        raise WrongUse(
+            f"-o {outputs[0].name} has two layers, {outputs[0].layer} and {values[0]}; name one"
+        )
+    if not _LAYER.fullmatch(values[0]):
+        raise WrongUse(
+            f"-l {values[0]} behind -o {outputs[0].name} is no layer ({LAYER_HELP}); for a log, "
+            f"write --log {values[0]}"
+        )
+    return values[0]
+
+
+def _check_log(value: str, has_outputs: bool) -> None:
+    if not _LAYER.fullmatch(value):
+        return
+    where = "apart from its -o" if has_outputs else "before every -o"
+    raise WrongUse(
+        f"-l {value} {where} can be a layer or a log; for the layer, put it just behind -o FILE, "
+        f"and for a log of that name write --log {value}"
+    )
+
+
+def _check_layers(outputs: Sequence[Output]) -> None:
+    """Raise `WrongUse` if only some outputs have a layer."""
+    if any(output.layer for output in outputs):
+        for output in outputs:
+            if not output.layer:
+                raise WrongUse(
+                    f"-o {output.name} has no layer, but others have; add -l c for the current one"
+                )

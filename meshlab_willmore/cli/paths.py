@@ -1,0 +1,458 @@
+"""The files named on a command line: inputs, outputs, scripts, and the jobs of a `run`."""
+
+from __future__ import annotations
+
+import difflib
+import errno
+import glob
+import os
+import re
+import string
+import sys
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from ..files import UnwritableError, is_stream, place_of, refuse_special, special, writable_folder
+from . import formats
+from .errors import WrongUse
+
+if TYPE_CHECKING:
+    from ..meshset.check import Findings
+
+PLACEHOLDERS = {
+    "name": "the input's name without its ending",
+    "ext": "the input's ending",
+    "dir": "the input's folder",
+    "index": "1, 2, 3, ...",
+}
+STANDARD_STREAM = "-"
+
+# How many similar names of a folder an error lists, and how much of a long name it shows.
+_SIMILAR = 3
+_SHOWN = 40
+# Up to two digits: a width, filled with blanks or zeros.
+_WIDTH = re.compile(r"0?\d{0,2}d?")
+# Names with the ending of a script, the standard input, and what a shell puts for ``<(...)``.
+_SCRIPT = re.compile(r".*\.mlx|/dev/stdin|/dev/fd/\d+|/proc/self/fd/\d+", re.DOTALL)
+
+
+# --- inputs ------------------------------------------------------------------------------------
+
+
+class Input(NamedTuple):
+    """A file that the command line asks for.
+
+    Attributes
+    ----------
+    path : Path
+        The file, or a pattern that no file matches.
+    problem : WrongUse or None
+        Why it can't be a mesh, as far as that is known without reading it.
+    """
+
+    path: Path
+    problem: WrongUse | None
+
+
+class NoMatchError(WrongUse):
+    """A pattern that no file matches."""
+
+
+def find_inputs(names: Iterable[str]) -> list[Input]:
+    """The files for names and patterns, in their order, with what is wrong with each.
+
+    A name that no file has is a pattern if it has wildcards, also where the shell does not expand
+    them; ``**`` goes through folders.
+    """
+    return [found for name in names for found in _find_inputs(name)]
+
+
+def _find_inputs(name: str) -> list[Input]:
+    try:
+        return [Input(path, _problem(path)) for path in matches(name)]
+    except NoMatchError as error:
+        return [Input(Path(name), error)]
+
+
+def _problem(path: Path) -> WrongUse | None:
+    try:
+        check_input(path)
+    except WrongUse as error:
+        return error
+    return None
+
+
+def only_input(pattern: str, rule: str) -> Path:
+    """The one mesh file for a name or pattern.
+
+    Raises
+    ------
+    WrongUse
+        If there is none, it can't be read, or there are several; then with `rule`, which says what
+        the command takes.
+    """
+    inputs = find_inputs([pattern])
+    for _, problem in inputs:
+        if problem is not None:
+            raise problem
+    if len(inputs) > 1:
+        raise WrongUse(f"{pattern} matches {len(inputs)} files; {rule}")
+    return inputs[0].path
+
+
+def matches(name: str) -> list[Path]:
+    """The files for a name or pattern; a plain name is one file, whether it exists or not.
+
+    Folders match only a pattern with the ending of a file.
+
+    Raises
+    ------
+    NoMatchError
+        For a pattern that no file matches.
+    """
+    if os.path.lexists(name) or not glob.has_magic(name):
+        return [Path(name)]
+    # Hidden files, which glob leaves out, are temporary files of other programs or of this one.
+    found = [Path(match) for match in sorted(glob.glob(name, recursive=True))]
+    files = [path for path in found if Path(name).suffix or not path.is_dir()]
+    if not files:
+        raise NoMatchError(f"no file matches {name!r}")
+    return files
+
+
+def refuse_folder(path: Path, things: str, example: str) -> None:
+    """Raise `WrongUse` for a folder where one of the files in it is needed."""
+    if os.path.isdir(path):
+        raise WrongUse(f"{path} is a folder; name the {things} in it, such as '{path / example}'")
+
+
+def check_input(path: Path) -> None:
+    """Raise `WrongUse` unless this is a readable file that is not empty."""
+    refuse_folder(path, "meshes", "*.ply")
+    try:
+        os.stat(path)
+    except PermissionError as error:
+        raise WrongUse(f"{path} can't be read: permission denied") from error
+    except OSError as error:
+        raise WrongUse(f"there is no file {path}{_hint(path)}") from error
+    kind = special(path)
+    if kind:
+        raise WrongUse(f"{path} is {kind}; meshes are read from files")
+    if not os.access(path, os.R_OK):
+        raise WrongUse(f"{path} can't be read: permission denied")
+    if os.path.getsize(path) == 0:
+        raise WrongUse(f"{path} is empty (0 bytes)")
+    _check_encoding(path)
+
+
+def _check_encoding(path: Path) -> None:
+    """Raise `WrongUse` if PyMeshLab can't open a file of this name."""
+    try:
+        str(path.absolute()).encode()
+    except UnicodeEncodeError as error:
+        raise WrongUse(f"{path}: PyMeshLab takes names in UTF-8 only; rename it") from error
+
+
+def _hint(path: Path) -> str:
+    """Why a file is missing, or which names in its folder are similar."""
+    if os.path.islink(path):
+        return f": it is a link to {os.readlink(path)}"
+    if not os.path.isdir(path.parent):
+        return f": there is no folder {path.parent}"
+    try:
+        names = [entry.name for entry in os.scandir(path.parent) if entry.is_file()]
+    except OSError:
+        return ""
+    similar = difflib.get_close_matches(path.name, names, n=_SIMILAR)
+    return f"; there is {', '.join(similar)}" if similar else ""
+
+
+# --- outputs -----------------------------------------------------------------------------------
+
+
+class Output(NamedTuple):
+    """An output of `run`.
+
+    Attributes
+    ----------
+    name : str
+        The file, or a pattern with placeholders.
+    parts : tuple of str
+        Which parts of the mesh are saved, as in `formats.PARTS`; empty for PyMeshLab's own choice.
+    layer : str
+        Which layer is saved: a place, "c" or "x"; empty for none.
+    """
+
+    name: str
+    parts: tuple[str, ...] = ()
+    layer: str = ""
+
+    @property
+    def path(self) -> Path:
+        """The file."""
+        return Path(self.name)
+
+
+def has_placeholder(pattern: str) -> bool:
+    """Whether the name depends on the input."""
+    return any(field is not None for _, field, _, _ in _parsed(pattern))
+
+
+def fill_in(output: Output, source: Path, index: int) -> Output:
+    """The output of one input; a width such as ``{index:03}`` is possible.
+
+    Raises
+    ------
+    WrongUse
+        For an unknown placeholder.
+    """
+    pattern = output.name
+    values: dict[str, Any] = {
+        "name": source.stem,
+        "ext": source.suffix.lstrip("."),
+        "dir": str(source.parent),
+        "index": index,
+    }
+    for _, field, width, conversion in _parsed(pattern):
+        if field is None:
+            continue
+        if field not in values:
+            known = ", ".join(f"{{{name}}}" for name in PLACEHOLDERS)
+            raise WrongUse(
+                f"{{{field}}} in {pattern!r} is no placeholder; there are {known}, and a brace "
+                "itself is written twice"
+            )
+        if conversion or (width and not (field == "index" and _WIDTH.fullmatch(width))):
+            raise WrongUse(
+                f"the output name {pattern!r} can't be read: only {{index}} takes a width, such as "
+                "{index:03}"
+            )
+    return output._replace(name=pattern.format_map(values))
+
+
+def _parsed(pattern: str) -> list[tuple[str, str | None, str | None, str | None]]:
+    try:
+        return list(string.Formatter().parse(pattern))
+    except ValueError as error:
+        raise WrongUse(
+            f"the output name {pattern!r} can't be read: {error}; a brace itself is written twice"
+        ) from error
+
+
+def check_output(path: Path, force: bool) -> None:
+    """Raise before anything is computed if a mesh can't be saved at `path`.
+
+    Raises
+    ------
+    WrongUse
+        If the name, its format or its folder is wrong, or the file exists and `force` is false.
+    OSError
+        If the folder can't be written into.
+    """
+    check_place(path, force)
+    _check_encoding(path)
+    ending = path.suffix.lstrip(".")
+    if path.suffix.lower() in formats.PROJECTS:
+        raise WrongUse(f"{path}: projects are not written; each layer can have an -o of its own")
+    if not ending or not formats.is_written(ending):
+        why = f"PyMeshLab writes no {path.suffix} files" if ending else "it has no ending"
+        raise WrongUse(
+            f"the format of {path} is unknown: {why}; there are {', '.join(formats.COMMON)}"
+        )
+    writable_folder(path.parent)
+    writable_folder(place_of(path).parent)
+
+
+def check_place(
+    path: Path, force: bool, example: str = "{name}.ply", takes_streams: bool = False
+) -> None:
+    """Raise `WrongUse` if no new file can have this name.
+
+    Parameters
+    ----------
+    example : str
+        A name that a file in a folder could have.
+    takes_streams : bool
+        Whether it may be a pipe or a device, of which nothing is replaced.
+    """
+    try:
+        path.lstat()
+    except (FileNotFoundError, NotADirectoryError):
+        pass
+    except OSError as error:
+        if error.errno == errno.ENAMETOOLONG:
+            raise WrongUse(f"the output name {str(path)[:_SHOWN]}... is too long") from error
+        raise UnwritableError(path, error.strerror) from error
+    if path.is_dir():
+        raise WrongUse(f"{path} is a folder; name a file in it, such as '{path / example}'")
+    try:
+        if takes_streams and is_stream(path):
+            return
+        refuse_special(path)
+    except UnwritableError as error:
+        raise WrongUse(str(error)) from error
+    folder = place_of(path).parent
+    if not folder.is_dir():
+        what = "is a file, not a folder" if folder.exists() else "does not exist"
+        raise WrongUse(f"cannot write {path}: the folder {folder} {what}")
+    # A link that leads nowhere exists as well.
+    if os.path.lexists(path) and not force:
+        raise WrongUse(f"{path} already exists; use --force to overwrite")
+
+
+# --- jobs of a run -----------------------------------------------------------------------------
+
+
+class Job(NamedTuple):
+    """One run of the script.
+
+    Attributes
+    ----------
+    inputs : tuple of Path
+        The layers, in their order; none if the script makes its own mesh.
+    outputs : tuple of Output
+        One: the current mesh in the end. Several: the first layers, in their order.
+    problem : WrongUse or None
+        Why the input can't be read.
+    """
+
+    inputs: tuple[Path, ...]
+    outputs: tuple[Output, ...]
+    problem: WrongUse | None = None
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """All files that are read or written, as far as their names are known."""
+        outputs = [output.path for output in self.outputs]
+        materials = (path.with_name(f"{path.name}.mtl") for path in outputs)
+        return (*self.inputs, *outputs, *materials)
+
+    @property
+    def name(self) -> str:
+        """What messages call it."""
+        return ", ".join(map(str, self.inputs)) or "no input"
+
+
+def plan(
+    inputs: Sequence[Input], outputs: Sequence[Output], layers: bool, force: bool
+) -> list[Job]:
+    """Divide inputs and outputs into jobs, and check every output.
+
+    An input that can't be read has a job without outputs; the others go on.
+
+    Raises
+    ------
+    WrongUse
+        If inputs and outputs don't fit together, the only job's input can't be read, or an output
+        is wrong.
+    OSError
+        If a folder can't be written into.
+    """
+    jobs = list(_jobs(inputs, outputs, layers))
+    _check_distinct(jobs, [path for path, _ in inputs] if len(jobs) > 1 else ())
+    for job in jobs:
+        for output in job.outputs:
+            check_output(output.path, force)
+    return jobs
+
+
+def _jobs(inputs: Sequence[Input], outputs: Sequence[Output], layers: bool) -> Iterator[Job]:
+    if not inputs:
+        for output in outputs:
+            if has_placeholder(output.name):
+                raise WrongUse(f"-o {output.name}: there is no input to take a name from")
+        yield Job((), tuple(fill_in(output, Path(), 1) for output in outputs))
+    elif layers or len(inputs) == 1:
+        for _, problem in inputs:
+            if problem is not None:
+                raise problem
+        paths = tuple(path for path, _ in inputs)
+        yield Job(paths, tuple(fill_in(output, paths[0], 1) for output in outputs))
+    elif len(outputs) > 1 or (outputs and not has_placeholder(outputs[0].name)):
+        raise WrongUse(
+            f"{len(inputs)} inputs need one -o with a placeholder, such as "
+            "-o '{name}_flipped.ply'; with --layers they become the layers of one set"
+        )
+    else:
+        index = 0
+        for path, problem in inputs:
+            # A file keeps its number, whatever is wrong with those before it.
+            index += not isinstance(problem, NoMatchError)
+            filled = () if problem else tuple(fill_in(o, path, index) for o in outputs)
+            yield Job((path,), filled, problem)
+
+
+def _check_distinct(jobs: Iterable[Job], inputs: Iterable[Path]) -> None:
+    """Raise `WrongUse` if two outputs have one name, or one that of an input yet to be read.
+
+    An input may be replaced by its own result.
+    """
+    readers = {_identity(path): path for path in inputs}
+    writers: dict[str, Path] = {}
+    for job in jobs:
+        source = job.inputs[0] if job.inputs else Path("the script's own mesh")
+        for output in job.outputs:
+            key = _identity(output.path)
+            if key in writers:
+                raise WrongUse(
+                    f"{writers[key]} and {source} would both be written to {output.path}; "
+                    "{index} or {dir} in the name tells them apart"
+                )
+            if readers.get(key, source) != source:
+                raise WrongUse(f"the result of {source} would replace the input {output.path}")
+            writers[key] = source
+
+
+def _identity(path: Path) -> str:
+    return os.path.normcase(os.path.realpath(path))
+
+
+# --- scripts -----------------------------------------------------------------------------------
+
+
+class Script(NamedTuple):
+    """The text of a filter script, which a pipe gives only once.
+
+    Attributes
+    ----------
+    name : str
+        What messages call it.
+    data : bytes
+        All of it, or so much that it is too large for a script.
+    """
+
+    name: str
+    data: bytes
+
+    def examined(self) -> Findings:
+        """All that a check finds in it."""
+        from ..script import examined_bytes
+
+        return examined_bytes(self.data, self.name)
+
+
+def is_script(word: str) -> bool:
+    """Whether a word of the command line names a script: by its ending, or as a shell's pipe."""
+    return word == STANDARD_STREAM or bool(_SCRIPT.fullmatch(word.lower()))
+
+
+def read_script(name: str) -> Script:
+    """The script of a file or pipe; ``-`` is the standard input.
+
+    Raises
+    ------
+    WrongUse
+        If there is no such file.
+    ScriptError
+        If it can't be read.
+    """
+    from ..mlx.source import LARGEST, bytes_of
+
+    if name == STANDARD_STREAM:
+        # Python has no such stream where it is closed.
+        return Script("standard input", sys.stdin.buffer.read(LARGEST + 1) if sys.stdin else b"")
+    refuse_folder(Path(name), "script", "clean.mlx")
+    if not os.path.exists(name):
+        raise WrongUse(f"there is no filter script {name}")
+    return Script(name, bytes_of(Path(name)))

@@ -1,0 +1,184 @@
+"""Texts for people: tables that fit the window, counts, notes, and what filters returned."""
+
+from __future__ import annotations
+
+import math
+import os
+import shutil
+import sys
+import unicodedata
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import click
+
+if TYPE_CHECKING:
+    from ..meshset.play import Played
+
+GAP = "  "
+_DOTS = "..."
+# In a window that is too narrow for that, lines wrap.
+_LEAST_OF_NAME = 12
+
+# Longer values are for the log.
+_LONGEST_VALUE = 60
+_DIGITS = 6
+_FLIP_RESULTS = ("flips", "willmore_before", "willmore_after")
+
+# Where click keeps the notes of a call.
+_NOTES = "notes"
+
+
+def note(text: str) -> None:
+    """Print a note on the standard error, the same one only once in a command."""
+    ctx = click.get_current_context(silent=True)
+    printed = ctx.meta.setdefault(_NOTES, set()) if ctx else set()
+    if text not in printed:
+        printed.add(text)
+        click.echo(f"Note: {text}", err=True)
+
+
+# --- tables ------------------------------------------------------------------------------------
+
+
+def table(rows: Sequence[Sequence[str]], legend: str) -> str:
+    """A table whose first row is its header, between rules, with a legend below."""
+    lines = in_columns(rows).splitlines()
+    rule = "-" * max(map(width, lines))
+    return "\n".join([lines[0], rule, *lines[1:], rule, legend])
+
+
+def in_columns(rows: Sequence[Sequence[str]], left: int = 1) -> str:
+    """Align rows in columns: the first `left` ones to the left, the others to the right."""
+    widths = [max(map(width, column)) for column in zip(*rows, strict=True)]
+    lines = []
+    for row in rows:
+        cells = [
+            cell + blanks if place < left else blanks + cell
+            for place, cell in enumerate(row)
+            for blanks in [" " * (widths[place] - width(cell))]
+        ]
+        lines.append(GAP.join(cells).rstrip())
+    return "\n".join(lines)
+
+
+def fitted(rows: Sequence[Sequence[str]]) -> list[tuple[str, ...]]:
+    """The rows with their first cells cut so that the columns fit into the window.
+
+    In a pipe names stay whole, unless the variable ``COLUMNS`` gives a width.
+    """
+    if not (terminal_width(sys.stdout) or "COLUMNS" in os.environ):
+        return [(printable(name), *rest) for name, *rest in rows]
+    window = shutil.get_terminal_size().columns
+    others = [max(map(width, column)) for column in list(zip(*rows, strict=True))[1:]]
+    room = max(window - sum(others) - len(GAP) * len(others), _LEAST_OF_NAME)
+    return [(end_of(printable(name), room), *rest) for name, *rest in rows]
+
+
+def counted(number: int, thing: str) -> str:
+    """A number with its noun: 1 step, 2 steps."""
+    return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
+
+
+def how_many_failed(failed: int, count: int) -> str:
+    """The last line on several inputs, of which some failed."""
+    rest = "" if failed == count else "; the others are done"
+    return f"{failed} of {count} inputs failed{rest}"
+
+
+def for_json(row: Mapping[str, Any]) -> dict[str, Any]:
+    """The row with null for numbers that are not finite: JSON has none of those."""
+    return {
+        key: None if isinstance(value, float) and not math.isfinite(value) else value
+        for key, value in row.items()
+    }
+
+
+# --- widths ------------------------------------------------------------------------------------
+
+
+def terminal_width(stream: Any) -> int:
+    """How many columns the terminal of a stream has; 0 if it is no terminal."""
+    try:
+        return os.get_terminal_size(stream.fileno()).columns if stream.isatty() else 0
+    except (OSError, ValueError):
+        return 0
+
+
+def width(text: str) -> int:
+    """How many columns a text takes on a terminal."""
+    return sum(map(_width_of, text))
+
+
+def _width_of(letter: str) -> int:
+    if unicodedata.combining(letter):
+        return 0
+    return 2 if unicodedata.east_asian_width(letter) in "WF" else 1
+
+
+def printable(text: str) -> str:
+    """The text with question marks for letters that would move the cursor."""
+    return "".join(letter if letter.isprintable() else "?" for letter in text)
+
+
+def beginning_of(text: str, columns: int) -> str:
+    """The text in at most so many columns: whole, or its beginning and dots."""
+    if width(text) <= columns:
+        return text
+    if columns < len(_DOTS):
+        return _DOTS[: max(columns, 0)]
+    room = columns - len(_DOTS)
+    kept = ""
+    for letter in text:
+        room -= _width_of(letter)
+        if room < 0:
+            break
+        kept += letter
+    return f"{kept}{_DOTS}"
+
+
+def end_of(text: str, columns: int) -> str:
+    """The text in at most so many columns: whole, or dots and its end, which names the file."""
+    return beginning_of(text[::-1], columns)[::-1]
+
+
+# --- what filters returned ---------------------------------------------------------------------
+
+
+def step_results(played: Iterable[Played]) -> list[str]:
+    """An indented line for each step that returned something."""
+    return [f"  step {p.number}, {p.name}: {_summary(p.returned)}" for p in played if p.returned]
+
+
+def flip_results(returned: Mapping[str, Any]) -> str:
+    """The number of flips and the energy before and after."""
+    before, after = returned["willmore_before"], returned["willmore_after"]
+    return f"{counted(returned['flips'], 'flip')}, Willmore energy {before:.6g} -> {after:.6g}"
+
+
+def in_line(value: Any) -> str:
+    """A value in one line; arrays as lists, a box by its corners."""
+    return " ".join(repr(_plain(value)).split())
+
+
+def _plain(value: Any) -> Any:
+    if type(value).__name__ == "BoundingBox":
+        return [_plain(value.min()), _plain(value.max())]
+    return value.tolist() if hasattr(value, "tolist") else value
+
+
+def _summary(returned: Mapping[str, Any]) -> str:
+    if all(key in returned for key in _FLIP_RESULTS):
+        return flip_results(returned)
+    return ", ".join(f"{key} {_short(value)}" for key, value in returned.items())
+
+
+def _short(value: Any) -> str:
+    text = in_line(_rounded(_plain(value)))
+    return text if len(text) <= _LONGEST_VALUE else f"{text[:_LONGEST_VALUE]}..."
+
+
+def _rounded(plain: Any) -> Any:
+    if isinstance(plain, list):
+        return [_rounded(item) for item in plain]
+    return float(f"{plain:.{_DIGITS}g}") if isinstance(plain, float) else plain

@@ -180,10 +180,7 @@ def _contenders(given: dict[str, Any], peers: bool) -> list[Contender]:
 def _outcomes(comparison: Comparison, rows: Sequence[Contender]) -> list[Outcome]:
     """Compute the rows one by one, and print the errors of those that failed.
 
-    Raises
-    ------
-    ClickException
-        If not even the initial mesh can be measured.
+    Raises `ClickException` if not even the initial mesh can be measured.
     """
     outcomes: list[Outcome] = []
     with progress.shown(Path(comparison.source).name, len(rows)) as status:

@@ -46,17 +46,7 @@ _TOO_SLOW = 1
 
 
 class Comparison(NamedTuple):
-    """What all rows have in common.
-
-    Attributes
-    ----------
-    source : str
-        The file of the mesh.
-    reference : str or None
-        The surface that the mesh should be like, as `read_reference` takes it.
-    timeout : float
-        Seconds that a filter may take.
-    """
+    """The mesh file, the reference surface (see `read_reference`) and the seconds for a filter."""
 
     source: str
     reference: str | None
@@ -64,29 +54,18 @@ class Comparison(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """The result of a row.
+    """The result of a row."""
 
-    Attributes
-    ----------
-    seconds : float or None
-        Time of the filter alone; None if there was none, or it did not end.
-    figures : dict or None
-        As `meshlab_willmore.compare.figures.Figures`; None if there is no mesh.
-    error : str or None
-        What went wrong, in a line. A filter that is too slow is no error.
-    of_machine : bool
-        Whether the machine is at fault, not the mesh or the filter.
-    timed_out : bool
-        Whether the filter took too long.
-    trace : str
-        The traceback of an error.
-    """
-
+    # Of the filter alone; None if there was none, or it did not end.
     seconds: float | None = None
+    # As `meshlab_willmore.compare.figures.Figures`.
     figures: dict[str, Any] | None = None
+    # In one line; a filter that takes too long is no error.
     error: str | None = None
+    # Whether the machine is at fault, not the mesh or the filter.
     of_machine: bool = False
     timed_out: bool = False
+    # The traceback of an error.
     trace: str = ""
 
 
@@ -241,15 +220,7 @@ def check_reference(text: str) -> None:
 
 
 def read_reference(text: str) -> Reference:
-    """The surface of a name, or of a file.
-
-    Raises
-    ------
-    WrongUse
-        As `check_reference`.
-    OSError
-        If the file holds no mesh, or one without faces.
-    """
+    """The surface of a name, or of a file; raises `OSError` if that holds no faces."""
     from ..compare.figures import arrays
     from ..compare.reference import Surface
 

@@ -47,19 +47,7 @@ _NAMED = 6
 
 
 class Finding(NamedTuple):
-    """The result of a check.
-
-    Attributes
-    ----------
-    name : str
-        What was checked.
-    ok : bool
-        Whether it is all right.
-    text : str
-        What was found.
-    cure : str
-        The command that fixes it, empty where nothing is wrong.
-    """
+    """The result of a check; `cure` is the command that fixes what is wrong."""
 
     name: str
     ok: bool

@@ -94,13 +94,7 @@ def command(source: str, target: Path, parts: tuple[str, ...], force: bool, **gi
 
 
 def check_options(given: dict[str, Any]) -> None:
-    """Check options of the filter, each by itself.
-
-    Raises
-    ------
-    WrongUse
-        For the first one that the filter can't take.
-    """
+    """Raise `WrongUse` for the first option that the filter can't take, each checked by itself."""
     from ..meshset.filters import BY_NAME
     from ..meshset.native import ERRORS
 

@@ -106,16 +106,9 @@ def _no_place(ending: str, names: Iterable[str]) -> str:
 
 
 def losses(ms: pymeshlab.MeshSet, file: Path, ending: str, chosen: bool) -> Iterator[str]:
-    """What the current mesh has and its file has not, one message for each kind.
+    """What the current mesh has and its `file` has not, one message for each kind.
 
-    Parameters
-    ----------
-    file : Path
-        What was saved.
-    ending : str
-        That of the name that it will have, without the dot.
-    chosen : bool
-        Whether the parts to save were chosen by `-m`; then no other part is missed.
+    If the parts to save were `chosen` by `-m`, no other part is missed.
     """
     mesh = ms.current_mesh()
     wedges = _WEDGES._replace(has_image=mesh.texture_number() > 0)
@@ -127,26 +120,15 @@ def losses(ms: pymeshlab.MeshSet, file: Path, ending: str, chosen: bool) -> Iter
 
 
 class _Part(NamedTuple):
-    """A part of a mesh that a format may have no place for.
-
-    Attributes
-    ----------
-    name : str
-        What messages call it.
-    keyword : str
-        The keyword of ``save_current_mesh`` for it; empty for none.
-    is_there : callable
-        Whether a mesh has it.
-    given : callable
-        Arguments of `pymeshlab.Mesh` with which a square of two triangles has it.
-    is_mapped, has_image : bool
-        Whether the square has texture coordinates, and a texture: some writers go by that.
-    """
+    """A part of a mesh that a format may have no place for."""
 
     name: str
+    # Of ``save_current_mesh``; empty for none.
     keyword: str
     is_there: Callable[[pymeshlab.Mesh], bool]
+    # Arguments of `pymeshlab.Mesh` with which a square of two triangles has it.
     given: Callable[[], dict[str, Any]] = dict
+    # Whether the square has texture coordinates, and a texture: some writers depend on that.
     is_mapped: bool = False
     has_image: bool = False
 

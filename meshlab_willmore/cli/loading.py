@@ -54,10 +54,7 @@ def loaded(
 def load(ms: pymeshlab.MeshSet, path: Path) -> None:
     """Load a mesh file as new layers of `ms`, and print notes on what of it is not read.
 
-    Raises
-    ------
-    OSError
-        In one line: which file, and why it can't be read.
+    Raises `OSError` in one line: which file, and why it can't be read.
     """
     from ..meshset import native
 
@@ -146,21 +143,9 @@ def _why(path: Path, error: Exception) -> str:
 def try_in_process(
     path: Path, load: Callable[[Path], None], why: Callable[[Path, Exception], str]
 ) -> None:
-    """Raise if loading a file fails, crashes or does not end in a forked process.
+    """Raise `OSError` if `load` fails, crashes or does not end in a forked process.
 
-    Parameters
-    ----------
-    path : Path
-        Its size, and that of the images in its folder, determine how long loading may take.
-    load : callable
-        Loads the file; what it does has no effect on this process.
-    why : callable
-        The message for an error of `load`.
-
-    Raises
-    ------
-    OSError
-        In one line, without the name of the file.
+    The message, which for errors comes from `why`, is one line without the name of the file.
     """
     if sys.platform != "linux":
         return

@@ -40,16 +40,9 @@ _NUMBER = re.compile(rb"(?<![\w.])[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?(?![\w.])")
 
 
 def losses(path: Path, printed: Iterable[str], mesh: pymeshlab.Mesh) -> Iterator[str]:
-    """What was not read, one message for each kind.
+    """What of a file was not read into `mesh`, one message for each kind.
 
-    Parameters
-    ----------
-    path : Path
-        The file that was loaded.
-    printed : iterable of str
-        The lines that PyMeshLab printed meanwhile.
-    mesh : pymeshlab.Mesh
-        The result.
+    `printed` are the lines that PyMeshLab printed meanwhile.
     """
     lines = list(printed)
     ending = path.suffix.lower()

@@ -114,20 +114,8 @@ class SeveralParts(click.Command):
 def take_outputs(args: Sequence[str], ctx: click.Context) -> tuple[list[Output], list[str]]:
     """Take the outputs, with their masks and layers, out of the arguments of `run`.
 
-    Returns
-    -------
-    outputs : list of Output
-        In their order. A mask or layer is for all names of the ``-o`` before it; a mask before
-        every ``-o`` is for all outputs.
-    rest : list of str
-        The other arguments for click, with ``--log`` for an ``-l`` that is a log.
-
-    Raises
-    ------
-    WrongUse
-        For an option that is gone, and for a layer that is wrong or ambiguous.
-    click.UsageError
-        For a value that is missing, or is no part.
+    A mask or layer is for all names of the ``-o`` before it; a mask before every ``-o`` is for all
+    outputs. The other arguments are returned for click, with ``--log`` for an ``-l`` that is a log.
     """
     words = _Words(args)
     for word in words.left:

@@ -41,15 +41,7 @@ _SCRIPT = re.compile(r".*\.mlx|/dev/stdin|/dev/fd/\d+|/proc/self/fd/\d+", re.DOT
 
 
 class Input(NamedTuple):
-    """A file that the command line asks for.
-
-    Attributes
-    ----------
-    path : Path
-        The file, or a pattern that no file matches.
-    problem : WrongUse or None
-        Why it can't be a mesh, as far as that is known without reading it.
-    """
+    """A file, or a pattern that no file matches, and why it can't be a mesh."""
 
     path: Path
     problem: WrongUse | None
@@ -86,11 +78,8 @@ def _problem(path: Path) -> WrongUse | None:
 def only_input(pattern: str, rule: str) -> Path:
     """The one mesh file for a name or pattern.
 
-    Raises
-    ------
-    WrongUse
-        If there is none, it can't be read, or there are several; then with `rule`, which says what
-        the command takes.
+    Raises `WrongUse` if there is none, it can't be read, or there are several; then with `rule`,
+    which says what the command takes.
     """
     inputs = find_inputs([pattern])
     for _, problem in inputs:
@@ -104,12 +93,7 @@ def only_input(pattern: str, rule: str) -> Path:
 def matches(name: str) -> list[Path]:
     """The files for a name or pattern; a plain name is one file, whether it exists or not.
 
-    Folders match only a pattern with the ending of a file.
-
-    Raises
-    ------
-    NoMatchError
-        For a pattern that no file matches.
+    Folders match only a pattern with the ending of a file. Raises `NoMatchError` if nothing does.
     """
     if os.path.lexists(name) or not glob.has_magic(name):
         return [Path(name)]
@@ -172,16 +156,9 @@ def _hint(path: Path) -> str:
 
 
 class Output(NamedTuple):
-    """An output of `run`.
+    """An output of `run`: a file or a pattern, the parts of the mesh and the layer to save.
 
-    Attributes
-    ----------
-    name : str
-        The file, or a pattern with placeholders.
-    parts : tuple of str
-        Which parts of the mesh are saved, as in `formats.PARTS`; empty for PyMeshLab's own choice.
-    layer : str
-        Which layer is saved: a place, "c" or "x"; empty for none.
+    No parts are those that PyMeshLab saves. A layer is a place, "c" or "x"; empty for none.
     """
 
     name: str
@@ -193,21 +170,18 @@ class Output(NamedTuple):
         """The file."""
         return Path(self.name)
 
+    @property
+    def has_placeholder(self) -> bool:
+        """Whether the name depends on the input."""
+        return any(field is not None for _, field, _, _ in _parsed(self.name))
 
-def has_placeholder(pattern: str) -> bool:
-    """Whether the name depends on the input."""
-    return any(field is not None for _, field, _, _ in _parsed(pattern))
+    def of(self, source: Path, index: int) -> Output:
+        """The output of one input, with its placeholders filled in."""
+        return self._replace(name=_filled(self.name, source, index))
 
 
-def fill_in(output: Output, source: Path, index: int) -> Output:
-    """The output of one input; a width such as ``{index:03}`` is possible.
-
-    Raises
-    ------
-    WrongUse
-        For an unknown placeholder.
-    """
-    pattern = output.name
+def _filled(pattern: str, source: Path, index: int) -> str:
+    """The pattern with its placeholders replaced; raises `WrongUse` if one is wrong."""
     values: dict[str, Any] = {
         "name": source.stem,
         "ext": source.suffix.lstrip("."),
@@ -228,7 +202,7 @@ def fill_in(output: Output, source: Path, index: int) -> Output:
                 f"the output name {pattern!r} can't be read: only {{index}} takes a width, such as "
                 "{index:03}"
             )
-    return output._replace(name=pattern.format_map(values))
+    return pattern.format_map(values)
 
 
 def _parsed(pattern: str) -> list[tuple[str, str | None, str | None, str | None]]:
@@ -243,12 +217,8 @@ def _parsed(pattern: str) -> list[tuple[str, str | None, str | None, str | None]
 def check_output(path: Path, force: bool) -> None:
     """Raise before anything is computed if a mesh can't be saved at `path`.
 
-    Raises
-    ------
-    WrongUse
-        If the name, its format or its folder is wrong, or the file exists and `force` is false.
-    OSError
-        If the folder can't be written into.
+    `WrongUse` if the name, its format or its folder is wrong, or the file exists and `force` is
+    false; `OSError` if the folder can't be written into.
     """
     check_place(path, force)
     _check_encoding(path)
@@ -269,12 +239,8 @@ def check_place(
 ) -> None:
     """Raise `WrongUse` if no new file can have this name.
 
-    Parameters
-    ----------
-    example : str
-        A name that a file in a folder could have.
-    takes_streams : bool
-        Whether it may be a pipe or a device, of which nothing is replaced.
+    The message for a folder has the `example` of a file in it. With `takes_streams` it may be a
+    pipe or a device, of which nothing is replaced.
     """
     try:
         path.lstat()
@@ -305,16 +271,9 @@ def check_place(
 
 
 class Job(NamedTuple):
-    """One run of the script.
+    """One run of the script on its input, or on several as layers; why it can't be read.
 
-    Attributes
-    ----------
-    inputs : tuple of Path
-        The layers, in their order; none if the script makes its own mesh.
-    outputs : tuple of Output
-        One: the current mesh in the end. Several: the first layers, in their order.
-    problem : WrongUse or None
-        Why the input can't be read.
+    One output is for the layer that is current in the end, several are for the first layers.
     """
 
     inputs: tuple[Path, ...]
@@ -337,17 +296,10 @@ class Job(NamedTuple):
 def plan(
     inputs: Sequence[Input], outputs: Sequence[Output], layers: bool, force: bool
 ) -> list[Job]:
-    """Divide inputs and outputs into jobs, and check every output.
+    """Divide inputs and outputs into jobs, and check every output as `check_output` does.
 
-    An input that can't be read has a job without outputs; the others go on.
-
-    Raises
-    ------
-    WrongUse
-        If inputs and outputs don't fit together, the only job's input can't be read, or an output
-        is wrong.
-    OSError
-        If a folder can't be written into.
+    An input that can't be read has a job without outputs; the others go on. Raises `WrongUse` if
+    inputs and outputs don't fit together, or no job is left.
     """
     jobs = list(_jobs(inputs, outputs, layers))
     _check_distinct(jobs, [path for path, _ in inputs] if len(jobs) > 1 else ())
@@ -360,16 +312,16 @@ def plan(
 def _jobs(inputs: Sequence[Input], outputs: Sequence[Output], layers: bool) -> Iterator[Job]:
     if not inputs:
         for output in outputs:
-            if has_placeholder(output.name):
+            if output.has_placeholder:
                 raise WrongUse(f"-o {output.name}: there is no input to take a name from")
-        yield Job((), tuple(fill_in(output, Path(), 1) for output in outputs))
+        yield Job((), tuple(output.of(Path(), 1) for output in outputs))
     elif layers or len(inputs) == 1:
         for _, problem in inputs:
             if problem is not None:
                 raise problem
         paths = tuple(path for path, _ in inputs)
-        yield Job(paths, tuple(fill_in(output, paths[0], 1) for output in outputs))
-    elif len(outputs) > 1 or (outputs and not has_placeholder(outputs[0].name)):
+        yield Job(paths, tuple(output.of(paths[0], 1) for output in outputs))
+    elif len(outputs) > 1 or (outputs and not outputs[0].has_placeholder):
         raise WrongUse(
             f"{len(inputs)} inputs need one -o with a placeholder, such as "
             "-o '{name}_flipped.ply'; with --layers they become the layers of one set"
@@ -379,7 +331,7 @@ def _jobs(inputs: Sequence[Input], outputs: Sequence[Output], layers: bool) -> I
         for path, problem in inputs:
             # A file keeps its number, whatever is wrong with those before it.
             index += not isinstance(problem, NoMatchError)
-            filled = () if problem else tuple(fill_in(o, path, index) for o in outputs)
+            filled = () if problem else tuple(output.of(path, index) for output in outputs)
             yield Job((path,), filled, problem)
 
 
@@ -412,15 +364,7 @@ def _identity(path: Path) -> str:
 
 
 class Script(NamedTuple):
-    """The text of a filter script, which a pipe gives only once.
-
-    Attributes
-    ----------
-    name : str
-        What messages call it.
-    data : bytes
-        All of it, or so much that it is too large for a script.
-    """
+    """The text of a filter script, which a pipe gives only once, and what messages call it."""
 
     name: str
     data: bytes
@@ -440,12 +384,7 @@ def is_script(word: str) -> bool:
 def read_script(name: str) -> Script:
     """The script of a file or pipe; ``-`` is the standard input.
 
-    Raises
-    ------
-    WrongUse
-        If there is no such file.
-    ScriptError
-        If it can't be read.
+    Raises `WrongUse` if there is no such file, `ScriptError` if it can't be read.
     """
     from ..mlx.source import LARGEST, bytes_of
 

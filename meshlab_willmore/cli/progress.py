@@ -34,16 +34,9 @@ _LEAST_SHOWN = 10
 
 
 class Status:
-    """What is being done, since when, and how much is done.
+    """What is being done, since when, and how many of the `total` parts are done.
 
-    Parameters
-    ----------
-    label : str
-        The command or the file.
-    total : int
-        Number of parts; 0 if there are none.
-    clock : callable
-        Seconds since any time.
+    The `label` is a command or a file.
     """
 
     def __init__(self, label: str, total: int = 0, clock: Callable[[], float] = time.monotonic):

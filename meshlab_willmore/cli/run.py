@@ -56,25 +56,14 @@ _PLACEHOLDERS = ", ".join(f"{{{name}}} ({what})" for name, what in paths.PLACEHO
 
 
 class RunOptions(NamedTuple):
-    """What is the same for all inputs of a run.
-
-    Attributes
-    ----------
-    source : str
-        What messages call the script.
-    steps : tuple of Step
-        The script.
-    force, stop, dry_run : bool
-        The options of these names.
-    written : set of Path
-        The files that were written so far; changed in place.
-    """
+    """What is the same for all inputs: the script and its name, and options."""
 
     source: str
     steps: tuple[Step, ...]
     force: bool
     stop: bool
     dry_run: bool
+    # The files that this run has written; changed in place.
     written: set[Path]
 
 
@@ -272,10 +261,7 @@ def _load(job: Job) -> pymeshlab.MeshSet:
 def play(ms: pymeshlab.MeshSet, calls: Sequence[Call], source: str, label: str) -> list[Played]:
     """Run the steps; the filters themselves print nothing.
 
-    Parameters
-    ----------
-    source, label : str
-        What errors call the script, and what progress calls the input.
+    Errors name the script `source`; the progress bar has the `label`.
     """
     from ..meshset import play as steps
     from ..meshset.native import muted
@@ -304,13 +290,7 @@ def play(ms: pymeshlab.MeshSet, calls: Sequence[Call], source: str, label: str) 
 
 
 def _save(ms: pymeshlab.MeshSet, job: Job, options: RunOptions) -> str:
-    """Save the layers of a job's outputs; returns which files were written.
-
-    Raises
-    ------
-    OSError
-        In one line, if there is not a layer for each output, or one can't be written.
-    """
+    """Save the layers of a job's outputs; returns which files were written."""
     from .saving import SaveOptions, save
 
     if not job.outputs:

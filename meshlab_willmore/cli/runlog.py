@@ -51,17 +51,7 @@ class _Handler(logging.StreamHandler):
 def opened(path: str | None, script: str) -> Iterator[None]:
     """Write the log of a run inside, after what the file holds already, as `meshlabserver` did.
 
-    Parameters
-    ----------
-    path : str or None
-        ``-`` is the standard output, None no log.
-    script : str
-        The script's name, with which the log begins.
-
-    Raises
-    ------
-    OSError
-        In one line, if the file can't be written.
+    ``-`` is the standard output, None no log. Raises `OSError` in one line if it can't be written.
     """
     if path is None:
         yield
@@ -139,19 +129,8 @@ def _value(known: FilterInfo, keyword: str, value: Any) -> str:
 def check(path: str | None, others: Iterable[Path]) -> None:
     """Raise before anything is computed if no log can be written at `path`.
 
-    Parameters
-    ----------
-    path : str or None
-        As for `opened`.
-    others : iterable of Path
-        Files that a log must never be written into.
-
-    Raises
-    ------
-    WrongUse
-        If it is another file's name, or that of a file that is no log.
-    OSError
-        If nothing can be written there.
+    `WrongUse` if it is one of the `others`, which the run reads or writes, or any file that is no
+    log; `OSError` if nothing can be written there.
     """
     if path is None or path == STANDARD_STREAM:
         return

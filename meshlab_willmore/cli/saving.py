@@ -36,33 +36,22 @@ _ATTRIBUTE = re.compile(r"__ca_[vf][sp]__(.*)", re.DOTALL)
 
 
 class SaveOptions(NamedTuple):
-    """How a mesh is saved.
+    """How a mesh is saved."""
 
-    Attributes
-    ----------
-    parts : tuple of str
-        The parts to save, as in `formats.PARTS`; empty for what PyMeshLab saves by default.
-    force : bool
-        Overwrite existing files.
-    origin : Path or None
-        The folder of the input, from which unchanged textures are copied.
-    written : set of Path or None
-        What this run has written, which no other output replaces; the new files are added.
-    """
-
+    # As in `formats.PARTS`; empty for what PyMeshLab saves by default.
     parts: tuple[str, ...] = ()
+    # Overwrite existing files.
     force: bool = False
+    # The folder of the input, from which unchanged textures are copied.
     origin: Path | None = None
+    # What this run has written, which no other output replaces; the new files are added.
     written: set[Path] | None = None
 
 
 def save(ms: pymeshlab.MeshSet, path: Path, options: SaveOptions) -> list[Path]:
     """Save the current mesh of `ms`; returns the files that were written, the mesh first.
 
-    Raises
-    ------
-    OSError
-        In one line: the file, and what is wrong. Files that existed before are unchanged.
+    Raises `OSError` in one line: the file, and what is wrong. Then existing files are unchanged.
     """
     ending = path.suffix.lstrip(".")
     if missing := formats.not_held(options.parts, ending):
@@ -220,12 +209,7 @@ def write_texture(image: pymeshlab.Image, file: Path, originals: Iterable[Path])
     """Write an image, or copy the first of the originals that has the same pixels.
 
     A JPEG that is written again would lose some of it, and PyMeshLab does not write every format
-    that it reads.
-
-    Raises
-    ------
-    OSError
-        If neither is possible.
+    that it reads. Raises `OSError` if neither is possible.
     """
     file.parent.mkdir(parents=True, exist_ok=True)
     drawn = _as_png(image, file)

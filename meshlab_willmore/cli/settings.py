@@ -23,18 +23,10 @@ class Setting(NamedTuple):
 
 
 def with_settings(steps: Sequence[Step], written: Iterable[str]) -> tuple[Step, ...]:
-    """The steps with other values.
+    """The steps with the values of settings; raises `WrongUse` for one that does not fit.
 
-    Parameters
-    ----------
-    written : iterable of str
-        STEP is a number from 1, or a filter's name in MeshLab or PyMeshLab if the script has it
-        once; PARAM is MeshLab's name or PyMeshLab's keyword.
-
-    Raises
-    ------
-    WrongUse
-        For what names no step or parameter, or has no fitting value.
+    STEP is a number from 1, or a filter's name in MeshLab or PyMeshLab if the script has it once;
+    PARAM is MeshLab's name or PyMeshLab's keyword.
     """
     changed = list(steps)
     for text in written:

@@ -23,8 +23,8 @@ from .meshset.check import Call, Findings, examine
 from .meshset.modern import modernised
 from .meshset.play import Played, play
 from .mlx import write as _writing
+from .mlx.decode import bytes_of
 from .mlx.read import read, reading_of
-from .mlx.source import bytes_of
 from .mlx.steps import Fault, Param, Percentage, Reading, ScriptError, ScriptWarning, Step
 
 __all__ = [

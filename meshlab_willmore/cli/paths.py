@@ -386,7 +386,7 @@ def read_script(name: str) -> Script:
 
     Raises `WrongUse` if there is no such file, `ScriptError` if it can't be read.
     """
-    from ..mlx.source import LARGEST, bytes_of
+    from ..mlx.decode import LARGEST, bytes_of
 
     if name == STANDARD_STREAM:
         # Python has no such stream where it is closed.

@@ -9,9 +9,18 @@ import contextlib
 from collections.abc import Collection, Iterable, Iterator
 from typing import Any, NamedTuple
 
-from ..mlx.elements import MOST_FAULTS
-from ..mlx.steps import Fault, Gap, Reading, ScriptError, ScriptWarning, Step, Value
-from ..mlx.words import quoted, shortened
+from ..mlx.read import MOST_FAULTS
+from ..mlx.steps import (
+    Fault,
+    Gap,
+    Reading,
+    ScriptError,
+    ScriptWarning,
+    Step,
+    Value,
+    quoted,
+    shortened,
+)
 from . import catalogue, document, old_names
 from .catalogue import FilterInfo
 from .filters import BY_NAME

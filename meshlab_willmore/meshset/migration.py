@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from ..mlx.steps import Param, Step, Value
-from ..mlx.words import quoted
+from ..mlx.steps import Param, Step, Value, quoted
 from . import old_names
 from .catalogue import FilterInfo
 from .old_names import OldParam

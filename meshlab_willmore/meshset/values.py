@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..mlx import rich
-from ..mlx.steps import Param, Percentage, Value
-from ..mlx.words import quoted
+from ..mlx.steps import Param, Percentage, Value, quoted
 from .parameter_info import ParamInfo
 
 # MeshLab keeps values of one kind for types that it writes differently; between two kinds it reads
@@ -70,7 +69,7 @@ def _needed(param: Param, own: ParamInfo) -> tuple[tuple[str, str], ...]:
     """A range and the like, which nobody has looked at yet where the type is another, or none."""
     if param.type == own.type or own.choices:
         return ()
-    needs = rich.needs(own.type)
+    needs = rich.rich_type(own.type).needs
     return tuple(pair for pair in param.details if pair[0] in needs)
 
 

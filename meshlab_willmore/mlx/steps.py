@@ -6,6 +6,9 @@ from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
+# The longest piece of a script that a message shows.
+SHOWN = 60
+
 
 class Percentage(NamedTuple):
     """A share of a parameter's range on the mesh at hand, in percent."""
@@ -54,7 +57,7 @@ class Fault(NamedTuple):
     text : str
         What is wrong, in one line.
     step : int
-        The number of the step, from 1; 0 stands for the whole script.
+        The number of the step, from 1; 0 is the whole script.
     filter, param : str
         Names as in the script, shortened if they are long; empty where there is none.
     source : str
@@ -95,12 +98,29 @@ class ScriptWarning(NamedTuple):
         return _line(self)
 
 
-def _line(said: Fault | ScriptWarning) -> str:
-    where = f"step {said.step}" if said.step else ""
-    where += f" ({said.filter})" if said.filter else ""
-    where += f", parameter {said.param!r}" if said.param else ""
-    text = f"{where}: {said.text}" if where else said.text
-    return f"{said.source}: {text}" if said.source else text
+def _line(found: Fault | ScriptWarning) -> str:
+    where = f"step {found.step}" if found.step else ""
+    where += f" ({found.filter})" if found.filter else ""
+    where += f", parameter {found.param!r}" if found.param else ""
+    text = f"{where}: {found.text}" if where else found.text
+    return f"{found.source}: {text}" if found.source else text
+
+
+class ScriptError(ValueError):
+    """A filter script that can't be read or run, with all its faults.
+
+    Attributes
+    ----------
+    source : str
+        The file, or another name of the script.
+    faults : tuple of Fault
+        At least one.
+    """
+
+    def __init__(self, source: str, faults: Iterable[Fault]) -> None:
+        self.source = source
+        self.faults = tuple(faults)
+        super().__init__("\n".join(f"{source}: {fault}" for fault in self.faults))
 
 
 class Gap(NamedTuple):
@@ -151,18 +171,12 @@ class Reading(NamedTuple):
     is_loose: bool = False
 
 
-class ScriptError(ValueError):
-    """A filter script that can't be read or run, with all its faults.
+def quoted(text: str) -> str:
+    """`text` in quotes, on one line, cut where it gets too long for a message."""
+    return repr(shortened(text))
 
-    Attributes
-    ----------
-    source : str
-        The file, or another name of the script.
-    faults : tuple of Fault
-        At least one.
-    """
 
-    def __init__(self, source: str, faults: Iterable[Fault]) -> None:
-        self.source = source
-        self.faults = tuple(faults)
-        super().__init__("\n".join(f"{source}: {fault}" for fault in self.faults))
+def shortened(text: str) -> str:
+    """`text` on one line, cut where it gets too long for a message."""
+    begin = " ".join(text[: 2 * SHOWN].split())
+    return begin if len(begin) <= SHOWN else begin[: SHOWN - 3] + "..."

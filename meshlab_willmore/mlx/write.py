@@ -9,10 +9,8 @@ from pathlib import Path
 
 from .. import files
 from . import rich
-from .elements import FILTER, PARAM, ROOT
-from .read import read_bytes
-from .steps import Fault, Param, ScriptError, Step
-from .words import shortened
+from .read import FILTER, PARAM, ROOT, read_bytes
+from .steps import Fault, Param, ScriptError, Step, shortened
 
 SOURCE = "the script to be written"
 # Line breaks in an attribute would be read as spaces. The standard library's quoteattr does the

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from hypothesis import strategies as st
 
-from meshlab_willmore.mlx import numerals
+from meshlab_willmore.mlx import rich
 from meshlab_willmore.mlx.steps import Param, Percentage, Step
 
 
@@ -33,10 +33,10 @@ texts = st.text(
 )
 names = texts.filter(bool)
 floats = st.one_of(
-    st.floats(-numerals.LARGEST_FLOAT, numerals.LARGEST_FLOAT).filter(
-        lambda x: x == 0 or abs(x) > numerals.SMALLEST_FLOAT
+    st.floats(-rich.LARGEST_FLOAT, rich.LARGEST_FLOAT).filter(
+        lambda x: x == 0 or abs(x) > rich.SMALLEST_FLOAT
     ),
-    st.sampled_from([0.0, -0.0, 0.1, 1e-45, numerals.LARGEST_FLOAT, 1e15, 1e16, 123456.789]),
+    st.sampled_from([0.0, -0.0, 0.1, 1e-45, rich.LARGEST_FLOAT, 1e15, 1e16, 123456.789]),
 )
 bytes_of_colors = st.integers(0, 255)
 int32 = st.integers(-(2**31), 2**31 - 1)

@@ -7,9 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshlab_willmore.mlx.elements import DEEPEST, MOST_FAULTS
-from meshlab_willmore.mlx.read import read, read_bytes
-from meshlab_willmore.mlx.source import LARGEST
+from meshlab_willmore.mlx.decode import LARGEST
+from meshlab_willmore.mlx.read import DEEPEST, MOST_FAULTS, read, read_bytes
 from meshlab_willmore.mlx.steps import Fault, ScriptError
 from meshlab_willmore.mlx.write import to_xml
 
@@ -151,7 +150,7 @@ STRUCTURE = [
     (
         "external-doctype",
         b'<!DOCTYPE FilterScript SYSTEM "http://a.b/c.dtd"><FilterScript/>',
-        "refers to 'http://a.b/c.dtd'; a filter script stands by itself",
+        "refers to 'http://a.b/c.dtd'; a filter script needs no other file",
     ),
     (
         "attribute-default",

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshlab_willmore.mlx import numerals, rich
+from meshlab_willmore.mlx import rich
 from meshlab_willmore.mlx.steps import Param, Percentage
 
 from . import scripts
@@ -32,7 +32,7 @@ MATRIX = {f"val{i}": str(i) for i in range(16)}
         ("RichFloat", {"value": "5."}, 5.0),
         ("RichFloat", {"value": "0e-999"}, 0.0),
         ("RichFloat", {"value": "1e-45"}, 1e-45),
-        ("RichFloat", {"value": "3.4028234663852886e38"}, numerals.LARGEST_FLOAT),
+        ("RichFloat", {"value": "3.4028234663852886e38"}, rich.LARGEST_FLOAT),
         ("RichString", {"value": " a "}, " a "),
         ("RichString", {"value": ""}, ""),
         ("RichEnum", {"value": "2"} | CARDINALITY, 2),
@@ -195,15 +195,15 @@ def test_every_type_is_tested():
 @pytest.mark.slow
 def test_the_attributes_stand_in_one_order_and_read_back(param):
     written = rich.attributes(param)
-    known = ["name", "type", *rich.fields(param.type), *dict(param.details)]
+    known = ["name", "type", *rich.rich_type(param.type).fields, *dict(param.details)]
     assert list(written) == known
     assert rich.parse(param.type, written) == param.value
 
 
 @given(scripts.floats)
 def test_a_float_is_written_exactly_and_short(value):
-    text = numerals.show_float(value)
-    assert numerals.parse_float(text).hex() == float(value).hex()
+    text = rich.show_float(value)
+    assert rich.parse_float(text).hex() == float(value).hex()
     assert len(text) <= len(repr(value))
     assert not text.endswith(".0")
 
@@ -212,7 +212,7 @@ def test_a_float_is_written_exactly_and_short(value):
 def test_a_text_is_a_number_that_fits_or_refused(text):
     plain = re.fullmatch(r"[-+0-9.eE]+", text.strip()) is not None
     try:
-        value = numerals.parse_float(text)
+        value = rich.parse_float(text)
     except ValueError:
         assert not plain or not acceptable(text)
     else:
@@ -226,4 +226,4 @@ def acceptable(text):
     except ValueError:
         return False
     with_digits = any(digit in text.lower().partition("e")[0] for digit in "123456789")
-    return numerals.SMALLEST_FLOAT < abs(value) <= numerals.LARGEST_FLOAT or not with_digits
+    return rich.SMALLEST_FLOAT < abs(value) <= rich.LARGEST_FLOAT or not with_digits

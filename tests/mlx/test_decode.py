@@ -3,7 +3,7 @@
 import pytest
 
 from meshlab_willmore.meshset.check import examine
-from meshlab_willmore.mlx.loose import as_xml
+from meshlab_willmore.mlx.decode import as_xml
 from meshlab_willmore.mlx.read import read_bytes, reading_of
 from meshlab_willmore.mlx.steps import Param, ScriptError, Step
 from tests.mlx.scripts import script

@@ -1,4 +1,4 @@
-"""Files that are written whole or not at all, and never over what is no regular file."""
+"""Files that are written atomically, and never replace what is no regular file."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from tempfile import TemporaryFile
 from typing import BinaryIO
 
 _KINDS: tuple[tuple[Callable[[int], bool], str], ...] = (
@@ -22,8 +21,8 @@ _KINDS: tuple[tuple[Callable[[int], bool], str], ...] = (
     (stat.S_ISBLK, "a disk"),
 )
 _STREAMS = ("a pipe", "a device")
-# Names of this process' own descriptors. Opened anew, a file behind them would be written from its
-# beginning again.
+# Names of this process' own descriptors. Opened again, a file behind them would be written from its
+# beginning.
 _OWN = re.compile(r"/dev/(?:fd/(?P<number>\d+)|stdout|(?P<error>stderr))")
 
 # A file name takes 255 bytes; a letter up to four.
@@ -31,19 +30,19 @@ _LONGEST_STEM = 40
 
 
 class UnwritableError(OSError):
-    """Why a file can't be written, in one line with its name."""
+    """A file can't be written; the message names it and the reason in one line."""
 
     def __init__(self, path: Path, reason: str | None) -> None:
         super().__init__(f"cannot write {path}: {reason}")
 
 
 def special(path: Path) -> str:
-    """What is at `path`, behind links, if it is no regular file: "a folder", "a pipe" or such.
+    """What kind of special file `path` is or leads to: "a folder", "a pipe"; empty for other files.
 
     Raises
     ------
     UnwritableError
-        If that can't be found out: links that lead to each other, say.
+        If that can't be found out, for instance because links lead to each other.
     """
     try:
         mode = os.stat(path).st_mode
@@ -55,18 +54,18 @@ def special(path: Path) -> str:
 
 
 def is_stream(path: Path) -> bool:
-    """Whether text is written into what is at `path`, and nothing is replaced."""
+    """Whether `path` is a pipe or device, which takes text and is not replaced."""
     return bool(_OWN.fullmatch(str(path))) or special(path) in _STREAMS
 
 
 def place_of(path: Path) -> Path:
-    """Where the file itself is, or will be: a link stays, and what it leads to is replaced."""
+    """The path of the file itself: a link stays, and the file that it leads to is replaced."""
     return Path(os.path.realpath(path)) if path.is_symlink() else path
 
 
 @contextmanager
 def folder_beside(path: Path) -> Iterator[Path]:
-    """A hidden folder in the folder of `path`, which is removed in the end.
+    """A hidden folder in the folder of `path`, which is removed at the end.
 
     Raises
     ------
@@ -84,34 +83,34 @@ def folder_beside(path: Path) -> Iterator[Path]:
 
 
 @contextmanager
-def written_whole(path: Path) -> Iterator[Path]:
-    """Give a temporary name on the same disk, and rename that file to `path` in the end.
+def atomic_write(path: Path) -> Iterator[Path]:
+    """Give the path of a temporary file on the same disk, and rename it to `path` at the end.
 
     The temporary file has the name of `path` in another folder, since writers choose the format by
-    it. After an error it is removed, and an older file at `path` is as it was.
+    it. After an error it is removed, and an existing file at `path` stays unchanged.
 
     Raises
     ------
     UnwritableError
-        If `path` is no regular file, or its folder takes no file.
+        If `path` is a special file, or no file can be made in its folder.
     """
     refuse_special(path)
     with folder_beside(place_of(path)) as folder:
         draft = folder / path.name
         yield draft
-        put(draft, path)
+        replace(draft, path)
 
 
-def put(source: Path, target: Path) -> None:
+def replace(source: Path, target: Path) -> None:
     """Rename a finished file to `target`.
 
-    A file that is replaced hands on its mode. A link stays, and the file that it leads to is
+    The mode of a file that is replaced is kept. A link stays, and the file that it leads to is
     replaced.
 
     Raises
     ------
     OSError
-        If there is something else than a regular file, or it can't be renamed.
+        If `target` is a special file, or the file can't be renamed.
     """
     refuse_special(target)
     place = place_of(target)
@@ -120,7 +119,7 @@ def put(source: Path, target: Path) -> None:
     if place == target:
         os.replace(source, target)
         return
-    # That file may be on another disk, where nothing can be renamed to.
+    # The link may lead to another disk, where nothing can be renamed to.
     with folder_beside(place) as folder:
         draft = folder / place.name
         shutil.move(source, draft)
@@ -128,7 +127,7 @@ def put(source: Path, target: Path) -> None:
 
 
 def refuse_special(path: Path) -> None:
-    """Raise `UnwritableError` if there is something else than a regular file, or a link to one."""
+    """Raise `UnwritableError` if `path` is a special file, or leads to one."""
     kind = special(path)
     if kind:
         verb = "leads to" if path.is_symlink() else "is"
@@ -136,7 +135,7 @@ def refuse_special(path: Path) -> None:
 
 
 def write(path: Path, data: bytes) -> None:
-    """Write a file whole, or send the data into a pipe or device.
+    """Write a file atomically, or send the data into a pipe or device.
 
     Raises
     ------
@@ -148,7 +147,7 @@ def write(path: Path, data: bytes) -> None:
             with opened_stream(path) as stream:
                 stream.write(data)
         else:
-            with written_whole(path) as draft:
+            with atomic_write(path) as draft:
                 draft.write_bytes(data)
     except (BrokenPipeError, UnwritableError):
         raise
@@ -157,12 +156,12 @@ def write(path: Path, data: bytes) -> None:
 
 
 def opened_stream(path: Path) -> BinaryIO:
-    """A pipe or device, ready to be written into.
+    """Open a pipe or device for writing.
 
     Raises
     ------
     OSError
-        Also for a pipe that nobody reads from, instead of waiting for somebody.
+        Also for a pipe that nobody reads from, instead of waiting for a reader.
     """
     own = _OWN.fullmatch(str(path))
     if own:
@@ -180,7 +179,7 @@ def opened_stream(path: Path) -> BinaryIO:
 
 
 def writable_folder(folder: Path) -> Path:
-    """Make the folder if it isn't there, and find out now whether files can be written into it.
+    """Make the folder if it doesn't exist, and check that files can be written into it.
 
     Raises
     ------
@@ -189,7 +188,7 @@ def writable_folder(folder: Path) -> Path:
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        TemporaryFile(dir=folder).close()
+        tempfile.TemporaryFile(dir=folder).close()
     except OSError as error:
         reason = "it is a file" if folder.is_file() else error.strerror
         raise OSError(f"cannot write into {folder}: {reason}") from error

@@ -1,7 +1,7 @@
 """Messages of MeshLab as plain text: some are written for a window that shows rich text.
 
-A parser of HTML would take what users wrote, such as ``x <y`` in a condition, for a tag as well. So
-only whole tags that Qt's rich text knows are markup, and only where no user's text has them.
+A parser of HTML would also take a user's text for a tag, such as ``x <y`` in a condition. So only
+complete tags of Qt's rich text are removed, and only where the user's text does not have them.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ _MARKUP = re.compile(
     re.IGNORECASE,
 )
 
-# Where a tag inside a line was, and where words would run together without a blank there.
+# Marks the place of a tag inside a line; between words it becomes a blank.
 _SEAM = "\0"
 _BETWEEN_WORDS = re.compile(r"(?<=[\w.,;:!?)])\0+(?=[\w(])")
 
-# Sentences between which MeshLab's sources forget the blank.
+# Sentences between which MeshLab's sources lack the blank.
 _RUN_TOGETHER = (
     ("filterIf you", "filter. If you"),
     ("filterwith function", "filter with function"),
@@ -41,8 +41,8 @@ def plain(text: str, *verbatim: str) -> str:
     text : str
         The message.
     *verbatim : str
-        What users wrote (values of parameters, names of files) and the message may repeat: a tag or
-        an entity that stands in one of these is left.
+        Texts of the user that the message may repeat (values of parameters, names of files): a tag
+        or an entity in one of these is kept.
     """
 
     def replaced(match: re.Match[str]) -> str:

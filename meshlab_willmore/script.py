@@ -1,7 +1,7 @@
 """Filter scripts (`.mlx`): read, checked, run and written.
 
-PyMeshLab runs scripts loosely: it skips what it does not understand, without a word. Here a script
-is checked as a whole before its first step runs, and everything that is wrong with it is named::
+PyMeshLab skips what it does not understand in a script, and reports nothing. Here a script is
+checked as a whole before its first step runs, and all faults are named::
 
     from meshlab_willmore import script
 
@@ -22,10 +22,10 @@ import pymeshlab
 from .meshset.check import Call, Findings, examine
 from .meshset.modern import modernised
 from .meshset.play import Played, play
-from .mlx import write as _writing
 from .mlx.decode import bytes_of
 from .mlx.read import read, reading_of
 from .mlx.steps import Fault, Param, Percentage, Reading, ScriptError, ScriptWarning, Step
+from .mlx.write import write as _write
 
 __all__ = [
     "Call",
@@ -65,15 +65,15 @@ def check(script: Script, mesh_ids: Collection[int] | None = None) -> list[Fault
     list of Fault
         Empty if the script can run.
     """
-    source = str(script) if isinstance(script, (str, os.PathLike)) else ""
+    source = _path_of(script)
     return [fault._replace(source=source) for fault in examined(script, mesh_ids).faults]
 
 
 def warnings(script: Script) -> list[ScriptWarning]:
-    """Find what one should know of a script that can run.
+    """Find what has changed since a script was written, though it can run.
 
-    Old names and what they are today, parameters that have gone or have no type, defaults that
-    have changed since the script was written.
+    Old names and what they are today, parameters that no longer exist or have no type, other
+    defaults.
 
     Parameters
     ----------
@@ -86,12 +86,12 @@ def warnings(script: Script) -> list[ScriptWarning]:
         In the order of the steps. Where `changes_result` is true, the step does something else than
         it did in the MeshLab that the script was written for.
     """
-    source = str(script) if isinstance(script, (str, os.PathLike)) else ""
+    source = _path_of(script)
     return [warning._replace(source=source) for warning in examined(script).warnings]
 
 
 def calls(script: Script, mesh_ids: Collection[int] | None = None) -> tuple[Call, ...]:
-    """The filter calls that a script stands for, with filters and parameters looked up.
+    """The filter calls that a script makes, with filters and parameters looked up.
 
     Raises
     ------
@@ -118,7 +118,7 @@ def run(
         Changed in place; an empty one is made for a script that creates its own mesh. Its own
         filter script stays as it is.
     before, after : callable, optional
-        Called around each step, with the `Call` and with what was `Played`.
+        Called before each step with its `Call`, and after it with what was `Played`.
 
     Returns
     -------
@@ -130,21 +130,21 @@ def run(
     ScriptError
         With all faults of the script; then no step has run.
     pymeshlab.PyMeshLabException
-        If a step fails; it is named, and the steps before it have had their effect.
+        If a step fails; its number and name are in the message. The steps before it stay done.
     """
     ms = pymeshlab.MeshSet() if ms is None else ms
     checked = _without_fault(examined(script, [mesh.id() for mesh in ms]), script)
-    return play(ms, checked, _name_of(script), before, after)
+    return play(ms, checked, _path_of(script) or _UNNAMED, before, after)
 
 
 def write(path: str | os.PathLike[str], steps: Iterable[Step]) -> None:
-    """Write steps as a filter script, in the words of MeshLab where they can be looked up.
+    """Write steps as a filter script, with MeshLab's names where they can be looked up.
 
     Parameters
     ----------
     path : str or path
-        The file, which is replaced if it is there, as is one that a link leads to; it appears when
-        it is whole. A pipe or device gets what is written.
+        The file, which is written atomically. An existing file is replaced, also where a link
+        leads to it. A pipe or device gets the text.
     steps : iterable of Step
         PyMeshLab's names, old names, and parameters without a type become what MeshLab writes
         today; a step with a fault is written as it is.
@@ -152,11 +152,11 @@ def write(path: str | os.PathLike[str], steps: Iterable[Step]) -> None:
     Raises
     ------
     ScriptError
-        If a step says what no script can hold.
+        If no script can hold what a step says.
     OSError
         In one line, if the file can't be written.
     """
-    _writing.write(path, modernised(steps))
+    _write(path, modernised(steps))
 
 
 def examined(script: Script, mesh_ids: Collection[int] | None = None) -> Findings:
@@ -183,12 +183,12 @@ def _unreadable(error: ScriptError) -> Findings:
     return Findings((), error.faults, (), Reading((), error.faults))
 
 
-def _name_of(script: Script) -> str:
-    """What errors call a script."""
-    return str(script) if isinstance(script, (str, os.PathLike)) else _UNNAMED
+def _path_of(script: Script) -> str:
+    """The path of a script; empty for steps that are in no file."""
+    return str(script) if isinstance(script, (str, os.PathLike)) else ""
 
 
 def _without_fault(found: Findings, script: Script) -> tuple[Call, ...]:
     if found.faults:
-        raise ScriptError(_name_of(script), found.faults)
+        raise ScriptError(_path_of(script) or _UNNAMED, found.faults)
     return found.calls

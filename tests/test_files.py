@@ -8,14 +8,14 @@ from pathlib import Path
 
 import pytest
 
-from meshlab_willmore.files import put, special, writable_folder, write, written_whole
+from meshlab_willmore.files import atomic_write, replace, special, writable_folder, write
 
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="pipes, sockets and links of POSIX")
 
 
 def test_a_file_appears_whole_and_with_its_ending(tmp_path):
     path = tmp_path / "mesh.ply"
-    with written_whole(path) as beside:
+    with atomic_write(path) as beside:
         assert beside.parent.parent == tmp_path
         assert beside.name == path.name
         beside.write_text("new")
@@ -32,7 +32,7 @@ def test_after_an_error_the_older_file_is_as_it_was(tmp_path):
         beside.write_text("ne")
         raise RuntimeError("half way")
 
-    with pytest.raises(RuntimeError, match="half way"), written_whole(path) as beside:
+    with pytest.raises(RuntimeError, match="half way"), atomic_write(path) as beside:
         write_half(beside)
     assert path.read_text() == "old"
     assert list(tmp_path.iterdir()) == [path]
@@ -99,10 +99,10 @@ def test_nothing_but_a_file_is_replaced(nodes, name, link):
     draft = nodes / "draft"
     draft.write_text("new")
     before = kinds(nodes)
-    with pytest.raises(OSError, match=f"^cannot write {path}: "), written_whole(path) as beside:
+    with pytest.raises(OSError, match=f"^cannot write {path}: "), atomic_write(path) as beside:
         beside.write_text("new")
     with pytest.raises(OSError, match=f"^cannot write {path}: "):
-        put(draft, path)
+        replace(draft, path)
     with pytest.raises(OSError, match=f"^cannot write {path}: "):
         write(path, b"new")
     assert kinds(nodes) == before
@@ -137,7 +137,7 @@ def test_a_file_behind_links_is_replaced_and_keeps_its_mode(tmp_path):
     (tmp_path / "second.mlx").symlink_to("elsewhere/real")
     link = tmp_path / "first.mlx"
     link.symlink_to("second.mlx")
-    with written_whole(link) as beside:
+    with atomic_write(link) as beside:
         assert beside.suffix == ".mlx"
         beside.write_text("new")
     assert link.is_symlink()
@@ -163,13 +163,13 @@ def test_a_link_that_leads_nowhere_leads_to_the_new_file(tmp_path):
 def test_a_file_of_somebody_else_beside_is_left_alone(tmp_path):
     mine = tmp_path / f".mesh.{os.getpid()}.ply"
     mine.write_text("mine")
-    with written_whole(tmp_path / "mesh.ply") as beside:
+    with atomic_write(tmp_path / "mesh.ply") as beside:
         beside.write_text("new")
     assert mine.read_text() == "mine"
 
 
 def test_a_name_may_be_as_long_as_the_disk_takes(tmp_path):
     path = tmp_path / ("n" * 251 + ".ply")
-    with written_whole(path) as beside:
+    with atomic_write(path) as beside:
         beside.write_text("new")
     assert path.read_text() == "new"

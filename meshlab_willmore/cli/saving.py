@@ -15,7 +15,7 @@ from collections.abc import Iterable
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..files import folder_beside, put, refuse_special
+from ..files import folder_beside, refuse_special, replace
 from . import formats
 from .errors import reason
 from .losses import ply_header
@@ -168,7 +168,7 @@ def _rename_all(moves: list[tuple[Path, Path]]) -> None:
             for source, target in moves:
                 target.parent.mkdir(parents=True, exist_ok=True)
                 is_new = not os.path.lexists(target)
-                put(source, target)
+                replace(source, target)
                 new += [target] if is_new else []
         except OSError as error:
             for file in new:

@@ -10,7 +10,7 @@ from types import ModuleType
 import numpy as np
 import pymeshlab
 
-from ..files import writable_folder, written_whole
+from ..files import atomic_write, writable_folder
 from ..measure import triangle_shapes
 from ..report.camera import View
 from ..report.table import Stage, significant
@@ -78,7 +78,7 @@ class Studio:
     def save(self, meshes: pymeshlab.MeshSet, name: str) -> None:
         """Write the current mesh as a binary PLY file."""
         path = self.folder / f"{name}.ply"
-        with written_whole(path) as beside:
+        with atomic_write(path) as beside:
             meshes.save_current_mesh(str(beside), binary=True)
         self.files.append(path)
 
@@ -90,7 +90,7 @@ class Studio:
         shots = [self.pictures.Shot(_caption(stage), *mesh) for stage, mesh in (before, after)]
         figure = self.pictures.comparison(*shots, view)
         path = self.folder / f"{name}.png"
-        with written_whole(path) as beside:
+        with atomic_write(path) as beside:
             figure.savefig(beside)
         self.files.append(path)
 

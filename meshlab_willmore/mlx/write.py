@@ -14,7 +14,7 @@ from .steps import Fault, Param, ScriptError, Step, shortened
 
 SOURCE = "the script to be written"
 # Line breaks in an attribute would be read as spaces. The standard library's quoteattr does the
-# same, and takes half as long to import as the rest of this package.
+# same, but its import takes half as long as that of this whole package.
 _ESCAPES = str.maketrans(
     {
         "&": "&amp;",
@@ -54,13 +54,13 @@ def to_xml(steps: Iterable[Step]) -> str:
 
 
 def write(path: str | PathLike[str], steps: Iterable[Step]) -> None:
-    """Write a filter script; the file is there completely or not at all.
+    """Write a filter script atomically.
 
     Parameters
     ----------
     path : str or path
-        An older file there is replaced, and so is the one that a link leads to. A pipe or device
-        gets what is written.
+        An existing file is replaced, also where a link leads to it. A pipe or device gets the
+        text.
     steps : iterable of Step
 
     Raises

@@ -24,6 +24,16 @@ ENERGIES_AND_RULES = [
 ]
 
 
+def products(*parameters):
+    """Parametrize by whole products; by day such rows only that each two values meet in one."""
+    daily = pairwise(*parameters)
+    rows = itertools.product(*(enumerate(values) for values in parameters))
+    return [
+        pytest.param(*values, marks=() if numbers in daily else pytest.mark.nightly)
+        for numbers, values in (zip(*row, strict=True) for row in rows)
+    ]
+
+
 def pairwise(*parameters):
     """Choose rows of the product such that each two values of two parameters meet in one.
 

@@ -7,6 +7,7 @@ from meshlab_willmore.measure import measures
 from meshlab_willmore.optimize import optimize_flips
 from meshlab_willmore.options import ENERGY, SEARCH
 from tests import reference
+from tests.combinations import products
 
 LIMIT = 30.0
 # What says nothing about flat sides.
@@ -104,9 +105,9 @@ def _ends(faces):
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize("part", PARTS)
-@pytest.mark.parametrize("energy", ENERGY.choices)
-@pytest.mark.parametrize("search", SEARCH.choices)
+@pytest.mark.parametrize(
+    ("search", "energy", "part"), products(SEARCH.choices, ENERGY.choices, PARTS)
+)
 @pytest.mark.slow
 def test_feature_edges_stay_and_so_does_the_shape(search, energy, part):
     vertices, faces = PARTS[part]

@@ -1,6 +1,5 @@
 """No search makes a surface cut itself: by the exact tests, and as MeshLab counts."""
 
-import itertools
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +10,7 @@ from meshlab_willmore.measure import self_intersections
 from meshlab_willmore.optimize import optimize_flips
 from meshlab_willmore.options import ENERGY, SEARCH
 from tests import meshes
-from tests.combinations import pairwise
+from tests.combinations import products
 from tests.guards.test_meshlab_tests import counted
 
 COW = Path(pymeshlab.__file__).parent / "tests" / "sample_meshes" / "cow.obj"
@@ -49,18 +48,11 @@ def new_faces(before, after):
     return np.array([face not in known for face in map(tuple, np.sort(after, axis=1).tolist())])
 
 
-def combinations():
-    """All meshes, energies, searches and options: by day such that each two of them meet."""
-    ways = [{}, {"foldangle": 180.0, "monotone": False}]
-    parameters = MESHES, ENERGY.choices, SEARCH.choices, ways
-    daily = pairwise(*parameters)
-    for numbers in itertools.product(*(range(len(values)) for values in parameters)):
-        row = [list(values)[n] for values, n in zip(parameters, numbers, strict=True)]
-        yield pytest.param(*row, marks=() if numbers in daily else pytest.mark.nightly)
-
-
 @pytest.mark.heavy
-@pytest.mark.parametrize(("name", "energy", "search", "options"), list(combinations()))
+@pytest.mark.parametrize(
+    ("name", "energy", "search", "options"),
+    products(MESHES, ENERGY.choices, SEARCH.choices, [{}, {"foldangle": 180.0, "monotone": False}]),
+)
 @pytest.mark.slow
 def test_no_new_face_cuts_and_meshlab_counts_no_more(name, energy, search, options):
     vertices, faces = MESHES[name]()

@@ -433,10 +433,13 @@ def test_every_flip_of_a_chain_passes_the_fold_guard():
 
 
 @pytest.mark.heavy
+@pytest.mark.parametrize(
+    ("count", "least"), [(800, 112.955), pytest.param(2000, 115.754, marks=pytest.mark.nightly)]
+)
 @pytest.mark.slow
-def test_the_torus_ends_in_the_same_triangulation_whatever_the_start():
+def test_the_torus_ends_in_the_same_triangulation_whatever_the_start(count, least):
     """Two random flips an edge, and the energy comes down to the digit of the reference figure."""
-    vertices, faces = meshes.torus(2000, 0.3, 8)
+    vertices, faces = meshes.torus(count, 0.3, 8)
     rules = Rules(GUARDED)
     results = []
     for seed in (None, 101, 102):
@@ -447,7 +450,7 @@ def test_the_torus_ends_in_the_same_triangulation_whatever_the_start():
         validate_connectivity(mesh)
         results.append(reference.edge_set(faces_of(mesh)))
         energy = willmore.total(mesh) - 2.0 * math.pi * len(vertices)
-        assert energy == pytest.approx(115.754, abs=5e-4)
+        assert energy == pytest.approx(least, abs=5e-4)
     assert results[0] == results[1] == results[2]
 
 

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import pymeshlab
 from pymeshlab import MeshSet
 
-from . import layers, native, numbering
+from . import ids, layers, native
 from .parameter_info import ParamInfo, keyword_of
 
 
@@ -107,7 +107,7 @@ def _chosen(ms: MeshSet, given: Mapping[str, Any]) -> list[int]:
 
 def _physical_id(ms: MeshSet, mesh_id: int) -> int:
     """The physical id for a logical one; PyMeshLab would crash in the next filter without it."""
-    physical = numbering.physical_id(ms, mesh_id)
+    physical = ids.physical_id(ms, mesh_id)
     if physical is None:
         raise pymeshlab.PyMeshLabException(layers.no_such_id(ms, mesh_id))
     return physical

@@ -18,7 +18,7 @@ import numpy as np
 import pymeshlab
 
 from ..machine import temporary_folder
-from . import layers, native, numbering, ply
+from . import ids, layers, native, ply
 from .edge_flags import carry_side_bits
 from .snapshot import (
     ATTRIBUTE_METHODS,
@@ -266,7 +266,7 @@ def _load_without_pixels(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) 
     first = native.id_of(native.current_mesh(ms))
     native.apply(ms, "generate_copy_of_current_mesh")
     layers.delete(ms, first)
-    numbering.note_used(ms, first)
+    ids.note_used(ms, first)
 
 
 def _reload(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:

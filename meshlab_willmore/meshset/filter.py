@@ -1,13 +1,21 @@
-"""What a filter is, and the mesh that it works on."""
+"""A filter of this package: what it is called, what it takes and does, and applying it."""
 
 from __future__ import annotations
 
+import sys
+import threading
+import traceback
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import pymeshlab
+from pymeshlab import MeshSet
 
-from .parameters import Parameter
+from . import native
+from .parameters import Parameter, read_all
+
+# PyMeshLab redirects the streams of the whole process, so only one filter runs at a time.
+_lock = threading.RLock()
 
 
 class Filter(NamedTuple):
@@ -35,10 +43,10 @@ class Filter(NamedTuple):
     info: str
     parameters: tuple[Parameter, ...]
     returns: tuple[tuple[str, str, str], ...]
-    run: Callable[[pymeshlab.MeshSet, dict[str, Any]], tuple[dict[str, Any], str]]
+    run: Callable[[MeshSet, dict[str, Any]], tuple[dict[str, Any], str]]
 
 
-def current_surface(ms: pymeshlab.MeshSet) -> pymeshlab.Mesh:
+def current_surface(ms: MeshSet) -> pymeshlab.Mesh:
     """The current mesh, if it has faces."""
     mesh = ms.current_mesh()
     if mesh.vertex_number() == 0:
@@ -49,3 +57,58 @@ def current_surface(ms: pymeshlab.MeshSet) -> pymeshlab.Mesh:
             "by generate_surface_reconstruction_ball_pivoting, say."
         )
     return mesh
+
+
+def values_of(ms: MeshSet, filter_: Filter, given: dict[str, Any]) -> dict[str, Any]:
+    """All parameter values of a call: the given ones, and the defaults for the current mesh.
+
+    Raises
+    ------
+    pymeshlab.PyMeshLabException
+        If the set has no mesh, or a keyword or a value does not fit.
+    """
+    if ms.mesh_number() == 0:
+        raise pymeshlab.PyMeshLabException(
+            f"{filter_.name} requires at least one mesh loaded in the MeshSet."
+        )
+    return read_all(filter_.name, filter_.parameters, given, ms)
+
+
+def apply(ms: MeshSet, filter_: Filter, values: dict[str, Any]) -> dict[str, Any]:
+    """Run a filter with all its values, and return what it returns.
+
+    It prints what PyMeshLab prints of a native filter, and fails with the same words.
+
+    Raises
+    ------
+    pymeshlab.PyMeshLabException
+        If the filter fails; its mesh is as it was.
+    """
+    with _lock:
+        verbosity = native.verbosity(ms)
+        if verbosity.all or verbosity.parameters:
+            with native.in_order():
+                print(f"\nApplying filter {filter_.name} with the following parameters:")
+                print(f"{values}\n")
+        try:
+            returned, log = _run(ms, filter_, values)
+        except Exception as error:
+            # A caller who keeps the exception, as an interactive session does, would hold the mesh.
+            traceback.clear_frames(error.__traceback__)
+            raise pymeshlab.PyMeshLabException(
+                f"Failed to apply filter: {filter_.name}\nDetails: {error}"
+            ) from error
+        if verbosity.all:
+            with native.in_order():
+                print(f"LOG: 2 {log}\nLOG: 2 {filter_.name} applied!    [ 100% ]", file=sys.stderr)
+                print()
+        return returned
+
+
+def _run(ms: MeshSet, filter_: Filter, values: dict[str, Any]) -> tuple[dict[str, Any], str]:
+    """Run the filter; on a terminal, say why the first time takes so long."""
+    from ..mesh.compiling import announced
+
+    silent = native.verbosity(ms).all is False
+    with announced(f"what {filter_.meshlab_name!r} needs", silent=silent):
+        return filter_.run(ms, values)

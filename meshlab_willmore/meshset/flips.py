@@ -9,7 +9,7 @@ from typing import Any
 import pymeshlab
 
 from ..options import ENERGY, NO_LIMIT, OPTIONS, SEARCH, VIRTUALPOINT, Option
-from . import edge_flags, exchange, interrupts, native, numbering
+from . import edge_flags, exchange, ids, interrupts, native
 from .filter import Filter, current_surface
 from .parameters import Parameter
 from .snapshot import take
@@ -107,7 +107,7 @@ def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any]
         "willmore_after": result.willmore_after,
         "converged": result.converged,
         "seconds": seconds,
-        "mesh_id": numbering.logical_id(ms, native.id_of(native.current_mesh(ms))),
+        "mesh_id": ids.logical_id(ms, native.id_of(native.current_mesh(ms))),
     }
     return returned, f"{result.flips} Willmore edge flips performed in {seconds:.2f} sec."
 

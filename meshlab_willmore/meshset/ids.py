@@ -1,139 +1,117 @@
-"""The methods of `MeshSet` and `Mesh` that take, tell or count ids of layers.
+"""Logical and physical ids of layers: callers count as if our filters worked in place.
 
-Each is made of PyMeshLab's own. They leave out parked layers (see `layers`), and go by logical ids
-(see `numbering`): a flipped mesh is reached by the id that it had, at the place that it had.
+A flipped mesh can be a new layer with a new id, and helper layers use up ids too. Callers, loops
+and filter scripts need not know: the ids that they see are *logical*, PyMeshLab's own *physical*. A
+layer keeps its logical id as long as it exists, and so does the layer that takes its place.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from typing import Any
+import operator
+from bisect import bisect_left, bisect_right
+from typing import Any, NamedTuple
 
 import pymeshlab
 from pymeshlab import MeshSet
 
-from . import layers, native, numbering
+from . import native
 
 
-def _wrap_iter(_: Callable) -> Callable:
-    """Go through the layers that are there when the loop begins, and still there at their turn.
+class _Ids(NamedTuple):
+    """The ids of a set.
 
-    PyMeshLab's own iterator points to freed memory once its layer is deleted, and a loop in which
-    each step replaces a layer would never end.
+    `used` are the physical ids that our filters used up, ascending; `origins` the logical ids of
+    layers that took the place of others, by physical id; `newest` the last such layer, by logical
+    id.
     """
 
-    def iterate(self: MeshSet) -> Iterator[pymeshlab.Mesh]:
-        there = layers.shown_ids(self)
-        now = (numbering.physical_id(self, mesh_id) for mesh_id in there)
-        return (_shown(self, native.mesh(self, i)) for i in now if i is not None)
-
-    return iterate
+    used: tuple[int, ...]
+    origins: dict[int, int]
+    newest: dict[int, int]
 
 
-def _wrap_count(wrapped: Callable) -> Callable:
-    def count(self: MeshSet) -> int:
-        return wrapped(self) - len(layers.parked(self))
-
-    return count
-
-
-def _wrap_clear(wrapped: Callable) -> Callable:
-    def clear(self: MeshSet) -> None:
-        wrapped(self)
-        layers.forget(self)
-
-    return clear
+_UNMOVED = _Ids((), {}, {})
+_ids: native.PerSet[_Ids] = native.PerSet(_UNMOVED)
+# By `Mesh` object that a caller got: its logical id, where that is not the physical one.
+_noted: native.PerSet[int | None] = native.PerSet(None)
 
 
-def _wrap_mesh(wrapped: Callable) -> Callable:
-    def mesh(self: MeshSet, id: int) -> pymeshlab.Mesh:
-        return _shown(self, wrapped(self, _physical(self, id)))
-
-    return mesh
-
-
-def _wrap_current_mesh(wrapped: Callable) -> Callable:
-    def current_mesh(self: MeshSet) -> pymeshlab.Mesh:
-        return _shown(self, wrapped(self))
-
-    return current_mesh
+def note_used(ms: MeshSet, mesh_id: int) -> None:
+    """Remember that a helper layer used up a physical id."""
+    of_set = _ids.get(ms)
+    _ids.put(ms, of_set._replace(used=(*of_set.used, mesh_id)))
 
 
-def _wrap_current_mesh_id(wrapped: Callable) -> Callable:
-    def current_mesh_id(self: MeshSet) -> int:
-        return numbering.logical_id(self, wrapped(self))
-
-    return current_mesh_id
-
-
-def _wrap_mesh_id_exists(wrapped: Callable) -> Callable:
-    def mesh_id_exists(self: MeshSet, id: int) -> bool:
-        return wrapped(self, numbering.physical_of(self, id) if numbering.has_moved(self) else id)
-
-    return mesh_id_exists
+def note_replaced(ms: MeshSet, old_id: int, new_id: int) -> None:
+    """Remember that a new layer took the place of another; the ids are physical."""
+    logical = logical_id(ms, old_id)
+    note_used(ms, new_id)
+    used, origins, newest = _ids.get(ms)
+    _ids.put(ms, _Ids(used, {**origins, new_id: logical}, {**newest, logical: new_id}))
 
 
-def _wrap_set_current_mesh(wrapped: Callable) -> Callable:
-    def set_current_mesh(self: MeshSet, new_curr_id: int) -> None:
-        # As in any set, no mesh is current after an id that doesn't exist.
-        if numbering.has_moved(self):
-            new_curr_id = numbering.physical_of(self, new_curr_id)
-        wrapped(self, new_curr_id)
-
-    return set_current_mesh
+def forget(ms: MeshSet) -> None:
+    """Start again, with a set that was emptied."""
+    if has_moved(ms):
+        _ids.put(ms, _UNMOVED)
 
 
-def _wrap_is_mesh_visible(wrapped: Callable) -> Callable:
-    def is_mesh_visible(self: MeshSet, id: int) -> bool:
-        return wrapped(self, _physical(self, id))
-
-    return is_mesh_visible
+def has_moved(ms: MeshSet) -> bool:
+    """Whether there are layers whose logical and physical ids differ, or can differ later."""
+    return bool(_ids.get(ms).used)
 
 
-def _wrap_set_mesh_visibility(wrapped: Callable) -> Callable:
-    def set_mesh_visibility(self: MeshSet, id: int, visibility: bool) -> None:
-        wrapped(self, _physical(self, id), visibility)
-
-    return set_mesh_visibility
-
-
-def _wrap_id(wrapped: Callable) -> Callable:
-    def id(self: pymeshlab.Mesh) -> int:
-        shown = numbering.shown_id(self)
-        return wrapped(self) if shown is None else shown
-
-    return id
+def logical_id(ms: MeshSet, mesh_id: int) -> int:
+    """The logical id of the layer with physical id `mesh_id`."""
+    used, origins, _ = _ids.get(ms)
+    if mesh_id in origins:
+        return origins[mesh_id]
+    return mesh_id - bisect_left(used, mesh_id)
 
 
-def _physical(ms: MeshSet, given: Any) -> Any:
-    """The physical id for a logical one, or an error in PyMeshLab's words."""
-    if not numbering.has_moved(ms):
-        return given
-    mesh_id = numbering.physical_of(ms, given)
-    if numbering.is_absent(mesh_id):
-        raise pymeshlab.PyMeshLabException(f"Mesh ID {given} not found in MeshSet.")
-    return mesh_id
+def physical_id(ms: MeshSet, mesh_id: int) -> int | None:
+    """The physical id of the layer with logical id `mesh_id`; None if there is none.
+
+    Where a layer took the place of another that is still there, it is the new one.
+    """
+    used, _, newest = _ids.get(ms)
+    physical = newest.get(mesh_id)
+    if physical is None:
+        physical = mesh_id
+        while physical != mesh_id + bisect_right(used, physical):
+            physical = mesh_id + bisect_right(used, physical)
+    return physical if _fits_int32(physical) and native.is_there(ms, physical) else None
 
 
-def _shown(ms: MeshSet, mesh: pymeshlab.Mesh) -> pymeshlab.Mesh:
-    """The object, which from now on tells its logical id."""
-    numbering.note_shown(ms, mesh)
-    return mesh
+def _fits_int32(number: int) -> bool:
+    return 0 <= number < 2**31
 
 
-SET_METHODS: dict[str, Callable[[Callable], Callable]] = {
-    "__getitem__": _wrap_mesh,
-    "__iter__": _wrap_iter,
-    "__len__": _wrap_count,
-    "clear": _wrap_clear,
-    "current_mesh": _wrap_current_mesh,
-    "current_mesh_id": _wrap_current_mesh_id,
-    "is_mesh_visible": _wrap_is_mesh_visible,
-    "mesh": _wrap_mesh,
-    "mesh_id_exists": _wrap_mesh_id_exists,
-    "mesh_number": _wrap_count,
-    "number_meshes": _wrap_count,
-    "set_current_mesh": _wrap_set_current_mesh,
-    "set_mesh_visibility": _wrap_set_mesh_visibility,
-}
-MESH_METHODS: dict[str, Callable[[Callable], Callable]] = {"id": _wrap_id}
+def physical_of(ms: MeshSet, value: Any) -> Any:
+    """The physical id for a logical one that a caller gave; `NO_LAYER` if there is no such layer.
+
+    What is no whole number comes back as it is: PyMeshLab refuses it.
+    """
+    try:
+        mesh_id = operator.index(value)
+    except TypeError:
+        return value
+    physical = physical_id(ms, mesh_id)
+    return native.NO_LAYER if physical is None else physical
+
+
+def is_absent(physical: Any) -> bool:
+    """Whether `physical_of` has found no layer."""
+    return isinstance(physical, int) and physical == native.NO_LAYER
+
+
+def note(ms: MeshSet, mesh: pymeshlab.Mesh) -> None:
+    """Remember the logical id of a `Mesh` object that a caller gets."""
+    # The object can have belonged to another layer, at the same place of memory.
+    if has_moved(ms) or _noted.get(mesh) is not None:
+        _noted.put(mesh, logical_id(ms, native.id_of(mesh)))
+
+
+def noted_id(mesh: pymeshlab.Mesh) -> int | None:
+    """The logical id of a `Mesh` object, where it was noted."""
+    return _noted.get(mesh)

@@ -2,7 +2,7 @@
 
 PyMeshLab edits a mesh in place only from C++, so a mesh with other faces is a new layer. Where the
 set has just that mesh and nobody holds it, the set is filled anew. Elsewhere the new layer goes to
-the end of PyMeshLab's list with an id of its own, and is known by the old id (see `numbering`). If
+the end of PyMeshLab's list with an id of its own, and is known by the old id (see `ids`). If
 somebody holds a `Mesh` object of the old layer, that layer is *parked*: hidden, left out when
 layers are counted, gone through or looked for by id, and deleted when the object is gone (`sweep`).
 So no object that was handed out ever points to freed memory.
@@ -19,7 +19,7 @@ import numpy as np
 import pymeshlab
 from pymeshlab import MeshSet
 
-from . import interrupts, native, numbering
+from . import ids, interrupts, native
 
 # A set that has seen more layers than this gives the new mesh a new id.
 _MOST_IDS_TO_REBUILD = 1000
@@ -83,9 +83,9 @@ def replace_current(
                 raise
         else:
             if next_id is not None:
-                numbering.note_used(ms, next_id)
+                ids.note_used(ms, next_id)
             _add(ms, load)
-            numbering.note_replaced(ms, old_id, _current_id(ms))
+            ids.note_replaced(ms, old_id, _current_id(ms))
             _retire(ms, old_id)
         _identify(ms, who)
 
@@ -126,7 +126,7 @@ def _add(ms: MeshSet, load: Callable[[MeshSet], None]) -> None:
         load(ms)
     except BaseException:
         for mesh_id in sorted(set(native.ids(ms)) - set(before)):
-            numbering.note_used(ms, mesh_id)
+            ids.note_used(ms, mesh_id)
             native.make_current(ms, mesh_id)
             native.apply(ms, "delete_current_mesh")
         native.make_current(ms, current)
@@ -171,30 +171,30 @@ def parked(ms: MeshSet) -> frozenset[int]:
 
 def forget(ms: MeshSet) -> None:
     """Forget all layers, of a set that was emptied."""
-    numbering.forget(ms)
+    ids.forget(ms)
     if _parked.get(ms):
         _parked.put(ms, frozenset())
 
 
-def visible_ids(ms: MeshSet) -> list[int]:
+def shown_ids(ms: MeshSet) -> list[int]:
     """The ids of the layers that are not parked, in the order of their logical ids.
 
     That is the order that PyMeshLab would have them in, had no layer taken the place of another.
     """
-    if not numbering.has_moved(ms):
+    if not ids.has_moved(ms):
         return native.ids(ms)
     there = set(native.ids(ms)) - parked(ms)
-    return sorted(there, key=lambda i: numbering.logical_id(ms, i))
+    return sorted(there, key=lambda i: ids.logical_id(ms, i))
 
 
-def shown_ids(ms: MeshSet) -> list[int]:
+def logical_ids(ms: MeshSet) -> list[int]:
     """The logical ids of the layers that are not parked, ascending."""
-    return [numbering.logical_id(ms, mesh_id) for mesh_id in visible_ids(ms)]
+    return [ids.logical_id(ms, mesh_id) for mesh_id in shown_ids(ms)]
 
 
 def no_such_id(ms: MeshSet, mesh_id: int) -> str:
     """What to say of a logical id that no layer has."""
-    there = ", ".join(map(str, shown_ids(ms))) or "none"
+    there = ", ".join(map(str, logical_ids(ms))) or "none"
     return f"there is no mesh {mesh_id} (there are: {there})"
 
 

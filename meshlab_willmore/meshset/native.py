@@ -2,7 +2,7 @@
 
 Helper filters of this package don't show in a set's filter script, print nothing, and are not seen
 by subclasses or wrappers of `MeshSet`. Ids are PyMeshLab's own here, the physical ones of
-`numbering`.
+`ids`.
 """
 
 from __future__ import annotations

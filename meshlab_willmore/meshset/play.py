@@ -17,8 +17,8 @@ from pymeshlab import MeshSet
 from ..markup import plain
 from ..mlx.steps import Percentage
 from . import document, layers, native, native_calls
-from .apply import apply, values_of
 from .check import Call
+from .filter import apply, values_of
 from .filters import BY_NAME
 
 _MATRIX_SIDE = 4

@@ -1,40 +1,38 @@
-"""Puts the filters on `pymeshlab.MeshSet`, beside MeshLab's own.
+"""Adds the filters to `pymeshlab.MeshSet`, beside MeshLab's own.
 
 PyMeshLab's methods all end in ``MeshSet.apply_filter``, and its lists come from four functions:
 replacing these makes our filters known wherever the native ones are. What counts the layers of a
-set, goes through them, or takes or tells ids is replaced as well, see `ids`.
+set, iterates over them, or takes or tells ids is replaced as well, see `native_calls`. Functions
+here that replace another get it as `before`.
 """
 
 from __future__ import annotations
 
 import functools
+import inspect
 import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any
 
 import pymeshlab
 from pymeshlab import MeshSet
 
 from ..mlx.write import write
-from . import ids, layers, native, native_calls, numbering, recording, status
-from .apply import apply, values_of
+from . import ids, layers, native, native_calls, recording
 from .check import resolve
-from .filter import Filter
+from .filter import Filter, apply, values_of
 from .filters import BY_NAME, FILTERS
-from .listing import listing
-from .methods import method_of
+from .parameters import Parameter
 from .play import play
-from .recording import our_script
 
 _MISSING = object()
 
 # (owner, attribute, value before), in the order of replacement; empty: not registered.
 _replaced: list[tuple[Any, str, Any]] = []
 
-# On the wrapper of apply_filter: how to undo a registration, also one of a module that was
-# imported before and dropped from sys.modules since.
+# On the replaced apply_filter: how to undo a registration, also one of a module that was imported
+# before and dropped from sys.modules since.
 _UNDO = "_meshlab_willmore_unregister"
 
 
@@ -58,16 +56,12 @@ def register() -> None:
             f"PyMeshLab already has {', '.join(taken)}; meshlab_willmore does not replace native "
             "filters. Use a version of meshlab_willmore that fits this PyMeshLab."
         )
-    for owner, wrappers in (
-        (MeshSet, {**ids.SET_METHODS, **_METHODS}),
-        (pymeshlab.Mesh, ids.MESH_METHODS),
-        (pymeshlab, _FUNCTIONS),
-    ):
-        for name, make in wrappers.items():
-            _wrap(owner, name, make)
+    for owner, functions in _REPLACEMENTS:
+        for name, function in functions.items():
+            _replace(owner, name, _replacement(function, getattr(owner, name)))
     setattr(MeshSet.apply_filter, _UNDO, unregister)
     for filter_ in FILTERS:
-        _replace(MeshSet, filter_.name, method_of(filter_))
+        _replace(MeshSet, filter_.name, _method(filter_))
 
 
 def unregister() -> None:
@@ -81,7 +75,7 @@ def unregister() -> None:
 
 
 def is_registered() -> bool:
-    """Whether the filters are there."""
+    """Whether the filters are registered."""
     return bool(_replaced)
 
 
@@ -90,15 +84,66 @@ def _replace(owner: Any, name: str, value: Any) -> None:
     setattr(owner, name, value)
 
 
-def _wrap(owner: Any, name: str, make: Callable[[Callable], Callable]) -> None:
-    before = getattr(owner, name)
-    _replace(owner, name, functools.wraps(before, updated=())(make(before)))
+def _replacement(function: Callable, before: Callable) -> Callable:
+    @functools.wraps(before, updated=())
+    def replacement(*args: Any, **kwargs: Any) -> Any:
+        return function(before, *args, **kwargs)
+
+    return replacement
+
+
+# --- the methods of our filters ------------------------------------------------------------------
+
+
+def _method(filter_: Filter) -> Callable:
+    """A method of `MeshSet` as PyMeshLab makes them, but with a signature and a docstring."""
+
+    def filter_function(self: MeshSet, **kwargs: Any) -> dict[str, Any] | None:
+        return self.apply_filter(filter_.name, **kwargs) or None
+
+    filter_function.__name__ = filter_.name
+    filter_function.__qualname__ = f"MeshSet.{filter_.name}"
+    filter_function.__module__ = "meshlab_willmore"
+    filter_function.__doc__ = _docstring(filter_)
+    filter_function.__signature__ = _signature(filter_)  # type: ignore[attr-defined]
+    return filter_function
+
+
+def _signature(filter_: Filter) -> inspect.Signature:
+    parameters = [inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)]
+    for p in filter_.parameters:
+        default = inspect.Parameter.empty if callable(p.default) else p.default
+        parameters.append(
+            inspect.Parameter(p.name, inspect.Parameter.KEYWORD_ONLY, default=default)
+        )
+    return inspect.Signature(parameters)
+
+
+def _docstring(filter_: Filter) -> str:
+    lines = [filter_.summary, "", f"MeshLab name: {filter_.meshlab_name!r}.", "", filter_.info]
+    if filter_.parameters:
+        lines += ["", "Parameters", "----------"]
+    for parameter in filter_.parameters:
+        lines += [f"{parameter.name} : {_type(parameter)}", f"    {parameter.tooltip}"]
+    if filter_.returns:
+        lines += ["", "Returns", "-------", "dict"]
+        lines += [f"    ``{name}`` ({kind}): {text}" for name, kind, text in filter_.returns]
+    return "\n".join(lines)
+
+
+def _type(parameter: Parameter) -> str:
+    if parameter.choices:
+        names = ", ".join(map(repr, parameter.choices))
+        return f"{{{names}}} or index, default {parameter.shown_default()}"
+    if callable(parameter.default):
+        return f"{parameter.type.__name__}, optional"
+    return f"{parameter.type.__name__}, default {parameter.shown_default()}"
 
 
 # --- applying ----------------------------------------------------------------------------------
 
 
-def _ours(args: tuple[Any, ...], key: str, given: dict[str, Any]) -> Filter | None:
+def _our_filter(args: tuple[Any, ...], key: str, given: dict[str, Any]) -> Filter | None:
     """The filter that a call names, if the call is well-formed and the filter is ours."""
     if len(args) == 1 and isinstance(args[0], str):
         return BY_NAME.get(args[0])
@@ -107,177 +152,126 @@ def _ours(args: tuple[Any, ...], key: str, given: dict[str, Any]) -> Filter | No
     return None
 
 
-def _wrap_apply_filter(wrapped: Callable) -> Callable:
-    def apply_filter(self: MeshSet, *args: Any, **kwargs: Any) -> dict[str, Any]:
-        layers.sweep(self)
-        filter_ = _ours(args, "filter_name", kwargs)
-        if filter_ is not None:
-            values = values_of(self, filter_, kwargs)
-            with _as_pymeshlab_error():
-                recording.catch_up(self)
-            returned = apply(self, filter_, values)
-            recording.note_ours(self, filter_, values)
-            return returned
-        name = args[0] if args else kwargs.get("filter_name")
-        if not numbering.has_moved(self):
-            with native.spoken(self):
-                returned = wrapped(self, *args, **kwargs)
-            recording.note_native(self, recording.NO_IDS)
-            return returned
-        with native_calls.prepared(self, name, kwargs) as given, native.spoken(self):
-            returned = wrapped(self, *args, **given)
-        recording.note_native(self, native_calls.logical_ids(self, name, given))
+def _apply_filter(before: Callable, ms: MeshSet, /, *args: Any, **given: Any) -> dict[str, Any]:
+    layers.sweep(ms)
+    filter_ = _our_filter(args, "filter_name", given)
+    if filter_ is not None:
+        values = values_of(ms, filter_, given)
+        with _as_pymeshlab_error():
+            recording.catch_up(ms)
+        returned = apply(ms, filter_, values)
+        recording.note_ours(ms, filter_, values)
         return returned
-
-    return apply_filter
-
-
-def _wrap_filter_parameter_values(wrapped: Callable) -> Callable:
-    def filter_parameter_values(self: MeshSet, *args: Any, **kwargs: Any) -> dict[str, Any]:
-        filter_ = _ours(args, "arg0", kwargs)
-        if filter_ is not None:
-            return values_of(self, filter_, kwargs)
-        if len(args) == 1 and numbering.has_moved(self):
-            return native_calls.parameter_values(self, wrapped, args[0], kwargs)
-        return wrapped(self, *args, **kwargs)
-
-    return filter_parameter_values
+    if not ids.has_moved(ms):
+        with native.spoken(ms):
+            returned = before(ms, *args, **given)
+        recording.note_native(ms, recording.NO_IDS)
+        return returned
+    name = args[0] if args else given.get("filter_name")
+    with native_calls.prepared(ms, name, given) as called, native.spoken(ms):
+        returned = before(ms, *args, **called)
+    recording.note_native(ms, native_calls.logical_ids(ms, name, called))
+    return returned
 
 
-def _wrap_init(wrapped: Callable) -> Callable:
-    def init(self: MeshSet, *args: Any, **kwargs: Any) -> None:
-        wrapped(self, *args, **kwargs)
-        verbose = args[0] if args else kwargs.get("verbose", False)
-        if verbose:
-            native.note_verbosity(self, all=True)
-
-    return init
-
-
-def _wrap_set_verbosity(field: str) -> Callable[[Callable], Callable]:
-    def make(wrapped: Callable) -> Callable:
-        def set_verbosity(self: MeshSet, verbosity: bool) -> None:
-            wrapped(self, verbosity)
-            native.note_verbosity(self, **{field: bool(verbosity)})
-
-        return set_verbosity
-
-    return make
+def _filter_parameter_values(
+    before: Callable, ms: MeshSet, /, *args: Any, **given: Any
+) -> dict[str, Any]:
+    filter_ = _our_filter(args, "arg0", given)
+    if filter_ is not None:
+        return values_of(ms, filter_, given)
+    if len(args) == 1 and ids.has_moved(ms):
+        return native_calls.parameter_values(before, ms, args[0], given)
+    return before(ms, *args, **given)
 
 
-# --- files, and what prints ----------------------------------------------------------------------
-
-# Functions of PyMeshLab that print, and know nothing of filters.
-_PRINTING = ("print_plugin_filter_list", "print_plugin_list", "print_pymeshlab_version")
+# --- verbosity, and what prints ------------------------------------------------------------------
 
 
-def _printing(wrapped: Callable) -> Callable:
-    """The same, in order with all else that is printed."""
+def _init(before: Callable, ms: MeshSet, *args: Any, **kwargs: Any) -> None:
+    before(ms, *args, **kwargs)
+    if args[0] if args else kwargs.get("verbose", False):
+        native.note_verbosity(ms, all=True)
 
-    @functools.wraps(wrapped)
+
+def _set_verbosity(before: Callable, ms: MeshSet, verbosity: bool) -> None:
+    before(ms, verbosity)
+    native.note_verbosity(ms, all=bool(verbosity))
+
+
+def _set_parameter_verbosity(before: Callable, ms: MeshSet, verbosity: bool) -> None:
+    before(ms, verbosity)
+    native.note_verbosity(ms, parameters=bool(verbosity))
+
+
+def _in_order(function: Callable) -> Callable:
+    """A replacement that prints, in order with all else that is printed."""
+
     def printing(*args: Any, **kwargs: Any) -> None:
         with native.in_order():
-            wrapped(*args, **kwargs)
+            function(*args, **kwargs)
 
     return printing
 
 
-def _wrap_print_status(wrapped: Callable) -> Callable:
-    def print_status(self: MeshSet) -> None:
-        if numbering.has_moved(self):
-            print(status.status(self, native.printed(lambda: wrapped(self))), end="")
-        else:
-            wrapped(self)
-
-    return _printing(print_status)
+@_in_order
+def _as_before(before: Callable, *args: Any) -> None:
+    before(*args)
 
 
-def _wrap_file_method(wrapped: Callable) -> Callable:
+def _file_method(before: Callable, ms: MeshSet, *args: Any, **kwargs: Any) -> None:
     """PyMeshLab's own, which leaves the working folder as it is also where it fails."""
-
-    def file_method(self: MeshSet, *args: Any, **kwargs: Any) -> None:
-        with native.kept_working_folder(), native.spoken(self):
-            wrapped(self, *args, **kwargs)
-
-    return file_method
-
-
-def _wrap_save_project(wrapped: Callable) -> Callable:
-    def save_project(self: MeshSet, file_name: str) -> None:
-        with native.kept_working_folder(), native.spoken(self):
-            wrapped(self, file_name)
-        if numbering.has_moved(self) and os.path.isfile(_path(file_name)):
-            status.reorder_project(self, Path(_path(file_name)))
-
-    return save_project
+    with native.kept_working_folder(), native.spoken(ms):
+        before(ms, *args, **kwargs)
 
 
 # --- filter scripts ----------------------------------------------------------------------------
 
 
-def _wrap_apply_filter_script(wrapped: Callable) -> Callable:
-    def apply_filter_script(self: MeshSet) -> None:
-        layers.sweep(self)
-        # PyMeshLab would go by its own ids and order, and reach parked layers.
-        if not recording.holds_more(self) and not numbering.has_moved(self):
-            with native.spoken(self):
-                wrapped(self)
-            return
+def _apply_filter_script(before: Callable, ms: MeshSet) -> None:
+    layers.sweep(ms)
+    # PyMeshLab would go by its own ids and order, and reach parked layers.
+    if not recording.holds_more(ms) and not ids.has_moved(ms):
+        with native.spoken(ms):
+            before(ms)
+        return
+    with _as_pymeshlab_error():
+        source = recording.source_of(ms)
+        calls = resolve(recording.steps_of(ms), source, layers.logical_ids(ms))
+    play(ms, calls, source)
+
+
+def _load_filter_script(before: Callable, ms: MeshSet, filter_script_name: str | bytes) -> None:
+    with _as_pymeshlab_error():
+        path = os.fsdecode(filter_script_name) if filter_script_name else ""
+        steps = recording.our_script(path) if path else None
+    if steps is None:
+        before(ms, filter_script_name)
+        recording.forget(ms)
+    else:
+        recording.put(ms, steps, path)
+
+
+def _save_filter_script(before: Callable, ms: MeshSet, filter_script_name: str | bytes) -> None:
+    if recording.holds_more(ms) and isinstance(filter_script_name, (str, bytes)):
         with _as_pymeshlab_error():
-            source = recording.source_of(self)
-            calls = resolve(recording.steps_of(self), source, layers.shown_ids(self))
-        play(self, calls, source)
-
-    return apply_filter_script
+            write(os.fsdecode(filter_script_name), recording.steps_of(ms))
+    else:
+        before(ms, filter_script_name)
 
 
-def _wrap_load_filter_script(wrapped: Callable) -> Callable:
-    def load_filter_script(self: MeshSet, filter_script_name: str) -> None:
-        with _as_pymeshlab_error():
-            steps = our_script(_path(filter_script_name)) if filter_script_name else None
-        if steps is None:
-            wrapped(self, filter_script_name)
-            recording.forget(self)
-        else:
-            recording.put(self, steps, _path(filter_script_name))
-
-    return load_filter_script
+def _print_filter_script(before: Callable, ms: MeshSet) -> None:
+    if not recording.holds_more(ms):
+        before(ms)
+        return
+    with _as_pymeshlab_error():
+        steps = recording.steps_of(ms)
+    print(recording.listing(steps))
 
 
-def _path(name: str | bytes) -> str:
-    """The name of a file; PyMeshLab's functions take bytes as well."""
-    return os.fsdecode(name)
-
-
-def _wrap_save_filter_script(wrapped: Callable) -> Callable:
-    def save_filter_script(self: MeshSet, filter_script_name: str) -> None:
-        if recording.holds_more(self) and isinstance(filter_script_name, (str, bytes)):
-            with _as_pymeshlab_error():
-                write(_path(filter_script_name), recording.steps_of(self))
-        else:
-            wrapped(self, filter_script_name)
-
-    return save_filter_script
-
-
-def _wrap_print_filter_script(wrapped: Callable) -> Callable:
-    def print_filter_script(self: MeshSet) -> None:
-        if recording.holds_more(self):
-            with _as_pymeshlab_error():
-                steps = recording.steps_of(self)
-            print(listing(steps))
-        else:
-            wrapped(self)
-
-    return _printing(print_filter_script)
-
-
-def _wrap_clear_filter_script(wrapped: Callable) -> Callable:
-    def clear_filter_script(self: MeshSet) -> None:
-        wrapped(self)
-        recording.forget(self)
-
-    return clear_filter_script
+def _clear_filter_script(before: Callable, ms: MeshSet) -> None:
+    before(ms)
+    recording.forget(ms)
 
 
 @contextmanager
@@ -291,72 +285,84 @@ def _as_pymeshlab_error() -> Iterator[None]:
 # --- lists -------------------------------------------------------------------------------------
 
 
-def _wrap_filter_list(wrapped: Callable) -> Callable:
-    def filter_list() -> list[str]:
-        return sorted([*wrapped(), *BY_NAME])
-
-    return filter_list
+def _filter_list(before: Callable) -> list[str]:
+    return sorted([*before(), *BY_NAME])
 
 
-def _wrap_print_filter_list(_: Callable) -> Callable:
-    def print_filter_list() -> None:
-        print("MeshSet class - list of filter names:")
-        for name in pymeshlab.filter_list():
-            print(f"\t{name}")
-
-    return _printing(print_filter_list)
+def _print_filter_list(_: Callable) -> None:
+    print("MeshSet class - list of filter names:")
+    for name in pymeshlab.filter_list():
+        print(f"\t{name}")
 
 
-def _wrap_print_filter_parameter_list(wrapped: Callable) -> Callable:
-    def print_filter_parameter_list(filter_name: str) -> None:
-        filter_ = BY_NAME.get(filter_name)
-        if filter_ is None:
-            wrapped(filter_name)
-            return
-        print(f"{filter_name} filter - list of parameter names:")
-        for parameter in filter_.parameters:
-            kind = parameter.type.__name__
-            print(f"\t{parameter.name} : {kind} = {parameter.shown_default()}")
-        if not filter_.parameters:
-            print("\tNone.")
-
-    return _printing(print_filter_parameter_list)
+def _print_filter_parameter_list(before: Callable, filter_name: str) -> None:
+    filter_ = BY_NAME.get(filter_name)
+    if filter_ is None:
+        before(filter_name)
+        return
+    print(f"{filter_name} filter - list of parameter names:")
+    for parameter in filter_.parameters:
+        print(f"\t{parameter.name} : {parameter.type.__name__} = {parameter.shown_default()}")
+    if not filter_.parameters:
+        print("\tNone.")
 
 
-def _wrap_search(wrapped: Callable) -> Callable:
-    def search(search_key_word: str) -> None:
-        words = search_key_word.lower().split()
-        for filter_ in FILTERS:
-            text = f"{filter_.name} {filter_.meshlab_name} {filter_.summary}".lower()
-            if words and all(word in text for word in words):
-                print(f"{filter_.name} : {filter_.summary}")
-        wrapped(search_key_word)
-
-    return _printing(search)
+def _search(before: Callable, search_key_word: str) -> None:
+    words = search_key_word.lower().split()
+    for filter_ in FILTERS:
+        text = f"{filter_.name} {filter_.meshlab_name} {filter_.summary}".lower()
+        if words and all(word in text for word in words):
+            print(f"{filter_.name} : {filter_.summary}")
+    before(search_key_word)
 
 
-_METHODS: dict[str, Callable[[Callable], Callable]] = {
-    "__init__": _wrap_init,
-    "apply_filter": _wrap_apply_filter,
-    "apply_filter_script": _wrap_apply_filter_script,
-    "clear_filter_script": _wrap_clear_filter_script,
-    "filter_parameter_values": _wrap_filter_parameter_values,
-    "load_filter_script": _wrap_load_filter_script,
-    "load_new_mesh": _wrap_file_method,
-    "load_new_raster": _wrap_file_method,
-    "load_project": _wrap_file_method,
-    "print_filter_script": _wrap_print_filter_script,
-    "print_status": _wrap_print_status,
-    "save_current_mesh": _wrap_file_method,
-    "save_filter_script": _wrap_save_filter_script,
-    "save_project": _wrap_save_project,
-    "set_parameter_verbosity": _wrap_set_verbosity("parameters"),
-    "set_verbosity": _wrap_set_verbosity("all"),
-}
-_FUNCTIONS: dict[str, Callable[[Callable], Callable]] = {
-    "filter_list": _wrap_filter_list,
-    **dict.fromkeys(_PRINTING, _printing),
-    "print_filter_list": _wrap_print_filter_list,
-    "print_filter_parameter_list": _wrap_print_filter_parameter_list,
-    "search": _wrap_search,
-}
+# What is replaced, by owner and name.
+_REPLACEMENTS: tuple[tuple[Any, dict[str, Callable]], ...] = (
+    (
+        MeshSet,
+        {
+            "__getitem__": native_calls.mesh,
+            "__init__": _init,
+            "__iter__": native_calls.iterate,
+            "__len__": native_calls.count,
+            "apply_filter": _apply_filter,
+            "apply_filter_script": _apply_filter_script,
+            "clear": native_calls.clear,
+            "clear_filter_script": _clear_filter_script,
+            "current_mesh": native_calls.current_mesh,
+            "current_mesh_id": native_calls.current_mesh_id,
+            "filter_parameter_values": _filter_parameter_values,
+            "is_mesh_visible": native_calls.is_mesh_visible,
+            "load_filter_script": _load_filter_script,
+            "load_new_mesh": _file_method,
+            "load_new_raster": _file_method,
+            "load_project": _file_method,
+            "mesh": native_calls.mesh,
+            "mesh_id_exists": native_calls.mesh_id_exists,
+            "mesh_number": native_calls.count,
+            "number_meshes": native_calls.count,
+            "print_filter_script": _in_order(_print_filter_script),
+            "print_status": _in_order(native_calls.print_status),
+            "save_current_mesh": _file_method,
+            "save_filter_script": _save_filter_script,
+            "save_project": native_calls.save_project,
+            "set_current_mesh": native_calls.set_current_mesh,
+            "set_mesh_visibility": native_calls.set_mesh_visibility,
+            "set_parameter_verbosity": _set_parameter_verbosity,
+            "set_verbosity": _set_verbosity,
+        },
+    ),
+    (pymeshlab.Mesh, {"id": native_calls.id_of}),
+    (
+        pymeshlab,
+        {
+            "filter_list": _filter_list,
+            "print_filter_list": _in_order(_print_filter_list),
+            "print_filter_parameter_list": _in_order(_print_filter_parameter_list),
+            "print_plugin_filter_list": _as_before,
+            "print_plugin_list": _as_before,
+            "print_pymeshlab_version": _as_before,
+            "search": _in_order(_search),
+        },
+    ),
+)

@@ -11,7 +11,7 @@ import numpy as np
 import pymeshlab
 from pymeshlab import MeshSet
 
-from . import interrupts, native, numbering
+from . import ids, interrupts, native
 
 # muParser, which evaluates MeshLab's functions, takes 20000 characters; a value with its test
 # and brackets takes at most 40.
@@ -57,7 +57,7 @@ def _transfer(ms: MeshSet, scalar: np.ndarray) -> None:
     helper = pymeshlab.Mesh(vertices, v_scalar_array=scalar)
     native.add(ms, helper, "Willmore energy")
     source = native.id_of(native.current_mesh(ms))
-    numbering.note_used(ms, source)
+    ids.note_used(ms, source)
     native.make_current(ms, target)
     try:
         native.apply(ms, "set_matrix_identity")

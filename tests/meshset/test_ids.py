@@ -4,7 +4,7 @@ import numpy as np
 import pymeshlab
 import pytest
 
-from meshlab_willmore.meshset import exchange, native, numbering
+from meshlab_willmore.meshset import exchange, ids, native
 from tests import meshes
 from tests.meshset.conftest import FLIP, set_of
 
@@ -34,7 +34,7 @@ def test_flips_of_a_lone_mesh_leave_its_id_and_the_next_one(bumpy, deleted):
     assert bumpy.apply_filter(FLIP)["flips"] > 0
     assert bumpy.current_mesh_id() == 0
     assert next_id(bumpy) == deleted + 1
-    assert numbering.logical_id(bumpy, deleted + 1) == deleted + 1
+    assert ids.logical_id(bumpy, deleted + 1) == deleted + 1
 
 
 def test_a_lone_mesh_with_a_large_id_gets_a_new_one(bumpy, monkeypatch):
@@ -52,20 +52,20 @@ def test_a_lone_mesh_with_a_large_id_gets_a_new_one(bumpy, monkeypatch):
 def test_a_replaced_layer_keeps_its_logical_id():
     ms = two()
     assert ms.apply_filter(FLIP)["mesh_id"] == 0
-    assert (native.ids(ms), numbering.logical_id(ms, 2)) == ([1, 2], 0)
+    assert (native.ids(ms), ids.logical_id(ms, 2)) == ([1, 2], 0)
     ms.set_current_mesh(1)
     assert ms.apply_filter(FLIP)["mesh_id"] == 1
-    assert (native.ids(ms), numbering.logical_id(ms, 3)) == ([2, 3], 1)
+    assert (native.ids(ms), ids.logical_id(ms, 3)) == ([2, 3], 1)
     ms.set_current_mesh(0)
     assert ms.apply_filter(FLIP, energy="willmore")["mesh_id"] == 0
-    assert (native.ids(ms), numbering.physical_id(ms, 0)) == ([3, 4], 4)
+    assert (native.ids(ms), ids.physical_id(ms, 0)) == ([3, 4], 4)
 
 
 def test_layers_made_after_flips_are_counted_as_if_there_were_none():
     ms = two()
     ms.apply_filter(FLIP)
     assert next_id(ms) == 2
-    assert numbering.physical_id(ms, 2) == 3
+    assert ids.physical_id(ms, 2) == 3
 
 
 def test_the_helper_layer_of_the_scalar_is_not_counted():
@@ -92,8 +92,8 @@ def test_an_emptied_set_starts_anew():
     ms.apply_filter(FLIP)
     ms.clear()
     assert next_id(ms) == 0
-    assert not numbering.has_moved(ms)
-    assert numbering.logical_id(ms, 3) == 3
+    assert not ids.has_moved(ms)
+    assert ids.logical_id(ms, 3) == 3
 
 
 def test_a_load_that_fails_is_not_counted(monkeypatch):

@@ -19,8 +19,7 @@ from pathlib import Path
 
 import pymeshlab
 
-from .meshset.check import Call, Findings, examine
-from .meshset.modern import modernised
+from .meshset.check import Call, Findings, examine, modernised
 from .meshset.play import Played, play
 from .mlx.decode import bytes_of
 from .mlx.read import read, reading_of

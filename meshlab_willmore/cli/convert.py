@@ -39,8 +39,8 @@ def command(source: str, target: Path, meshlab: bool, force: bool) -> None:
     today. Steps that do not do the same as before are listed. A script with errors is not
     converted. For SCRIPT and OUT, - is the standard input and output; pipes work as well.
     """
+    from ..meshset.check import in_todays_form
     from ..meshset.document import is_step
-    from ..meshset.modern import in_todays_form
     from ..mlx.steps import ScriptError
     from ..mlx.write import to_xml
 

@@ -2,7 +2,7 @@
 
 MeshLab and its scripts use other names than PyMeshLab, and PyMeshLab can't tell them: they stand in
 `native_filters.json`, recorded with one version of it. What another version has, or a plugin that
-was loaded later, is asked from PyMeshLab itself (see `parameter_info`).
+was loaded later, is asked from PyMeshLab itself (see `filter_info`).
 """
 
 from __future__ import annotations
@@ -14,15 +14,15 @@ import re
 from collections.abc import Iterable
 from importlib import metadata
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import pymeshlab
 
-from . import document, old_names, parameter_info
+from . import document, filter_info, old_names
 from .document import DocumentStep
 from .filter import Filter
+from .filter_info import FilterInfo, ParamInfo, keyword_of
 from .filters import BY_NAME, FILTERS
-from .parameter_info import ParamInfo, keyword_of
 
 _FILE = Path(__file__).with_name("native_filters.json")
 _RENAMED = Path(pymeshlab.__file__).with_name("keys.txt")
@@ -33,46 +33,6 @@ _MAKES_MESHES = "create_"
 _MOST_SUGGESTIONS = 3
 _LEAST_LIKENESS = 0.55
 _LONGEST_NAME = 200
-
-
-class FilterInfo(NamedTuple):
-    """A filter.
-
-    Attributes
-    ----------
-    name, meshlab_name : str
-        The name in PyMeshLab, and the one in MeshLab and its scripts (empty where nobody knows it).
-    params : tuple of ParamInfo
-        In MeshLab's order.
-    is_willmore : bool
-        Whether it is a filter of this package.
-    makes_layers : bool
-        Whether it can add meshes to a set.
-    summary : str
-        What it does; of MeshLab's own, where that can be read.
-    needs_mesh : bool
-        Whether it fails on an empty set.
-    available : bool
-        Whether the PyMeshLab at hand has it.
-    """
-
-    name: str
-    meshlab_name: str
-    params: tuple[ParamInfo, ...]
-    is_willmore: bool
-    makes_layers: bool
-    summary: str
-    needs_mesh: bool = True
-    available: bool = True
-
-    def param(self, name: str) -> ParamInfo | None:
-        """The parameter of that name in MeshLab or PyMeshLab."""
-        for param in self.params:
-            if name in (param.name, param.keyword):
-                return param
-            if param.guessed and keyword_of(name) == param.keyword:
-                return param
-        return None
 
 
 def find(name: str) -> FilterInfo | None:
@@ -212,10 +172,10 @@ def _read(name: str, there: bool) -> FilterInfo:
     manual = _MANUAL.format(version=version(), name=name)
     if entry is None:
         needs_mesh = not name.startswith(_MAKES_MESHES)
-        return FilterInfo(name, "", parameter_info.params(name), False, True, manual, needs_mesh)
+        return FilterInfo(name, "", filter_info.params(name), False, True, manual, needs_mesh)
     params = tuple(_param(entry, *fields) for fields in entry["params"])
     if there and version() != recorded_version():
-        params = parameter_info.updated(name, params)
+        params = filter_info.updated(name, params)
     return FilterInfo(
         name,
         entry["name"],

@@ -13,6 +13,7 @@ from ..mlx.read import MOST_FAULTS
 from ..mlx.steps import (
     Fault,
     Gap,
+    Param,
     Reading,
     ScriptError,
     ScriptWarning,
@@ -23,14 +24,16 @@ from ..mlx.steps import (
 )
 from . import catalogue, document, old_names
 from .catalogue import FilterInfo
+from .filter_info import ParamInfo
 from .filters import BY_NAME
-from .migration import Given, Migration, Remark
-from .parameter_info import ParamInfo
+from .old_names import Given, Migration, Remark
 from .values import mismatch, value_of
 
 # A longer list of parameters would not help.
 _MOST_LISTED = 12
 _NO_GAP = Gap()
+# Attributes of the time of meshlabserver, without a meaning today.
+_OLD_ATTRIBUTES = frozenset({"isxmlparam"})
 
 
 class Call(NamedTuple):
@@ -142,6 +145,52 @@ def is_todays(step: Step) -> bool:
     return has_names and not Migration(step, known, {}, "").remarks
 
 
+# --- calls to steps in today's names -------------------------------------------------------------
+
+
+def modernised(steps: Iterable[Step]) -> tuple[Step, ...]:
+    """The steps in today's form; a step with a fault stays as it is."""
+    return tuple(map(_modernised, steps))
+
+
+def _modernised(step: Step) -> Step:
+    try:
+        (call,) = resolve([step], "")
+    except ScriptError:
+        return step
+    return in_todays_form(call, step)
+
+
+def in_todays_form(call: Call, step: Step) -> Step:
+    """The step that `call` was made of, in today's form; descriptions and ranges stay."""
+    params = []
+    for keyword, value in call.given.items():
+        known = call.known.param(keyword)
+        if known is not None:
+            details = tuple(
+                pair for pair in call.details[keyword] if pair[0] not in _OLD_ATTRIBUTES
+            )
+            params.append(Param(known.name, known.type, value, _with_choices(known, details)))
+    # The MeshLab name of a plugin that the user brought is not known.
+    return step._replace(filter=call.known.meshlab_name or step.filter, params=tuple(params))
+
+
+def _with_choices(
+    known: ParamInfo, details: tuple[tuple[str, str], ...]
+) -> tuple[tuple[str, str], ...]:
+    """The details, with the names of an enum's choices as they are today."""
+    if not known.choices:
+        return details
+    names = [(f"enum_val{i}", choice) for i, choice in enumerate(known.choices)]
+    choices = [("enum_cardinality", str(len(known.choices))), *names]
+    kept = [pair for pair in details if not pair[0].startswith(("enum_val", "enum_card"))]
+    is_there = len(details) == len(kept) + len(choices) and set(choices) <= set(details)
+    return details if is_there else (*kept, *choices)
+
+
+# --- checking ----------------------------------------------------------------------------------
+
+
 class _EnoughError(Exception):
     """There is no sense in going on."""
 
@@ -178,7 +227,7 @@ class _Checker:
             self._may_be_more = True
         self._warn_of_name(number, step, known)
         migration = Migration(step, known, target.given if target else {}, old.by if old else "")
-        self._make_older(migration.age)
+        self._age = old_names.older(self._age, migration.age)
         for remark in migration.problems:
             self._add(number, step, remark.text, remark.shown)
         for remark in migration.remarks:
@@ -257,7 +306,7 @@ class _Checker:
             text += f": {old.note}"
         self._warn(number, step, Remark("", text, changes_result=bool(old and old.note)))
         if old:
-            self._make_older(old_names.age(old.until))
+            self._age = old_names.older(self._age, old_names.age(old.until))
 
     def warn_of_defaults(self) -> None:
         """Tell of defaults that have changed since the script was written, as far as it shows."""
@@ -277,10 +326,6 @@ class _Checker:
             name, shown = shortened(step.filter), shortened(remark.shown)
             changes = remark.changes_result
             self.warnings.append(ScriptWarning(remark.text, number, name, shown, "", changes))
-
-    def _make_older(self, age: int | None) -> None:
-        if age is not None:
-            self._age = age if self._age is None else min(self._age, age)
 
     # --- faults --------------------------------------------------------------------------------
 

@@ -13,7 +13,7 @@ import pymeshlab
 from pymeshlab import MeshSet
 
 from . import ids, layers, native
-from .parameter_info import ParamInfo, keyword_of
+from .filter_info import ParamInfo, keyword_of
 
 
 class DocumentStep(NamedTuple):

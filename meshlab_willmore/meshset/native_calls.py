@@ -17,7 +17,7 @@ from typing import Any, AnyStr
 import pymeshlab
 from pymeshlab import MeshSet
 
-from . import catalogue, ids, layers, native, parameter_info
+from . import catalogue, filter_info, ids, layers, native
 from .catalogue import FilterInfo
 
 _DELETE_HIDDEN = "delete_non_visible_meshes"
@@ -204,7 +204,7 @@ def _default_meshes(
     missing = [p.keyword for p in known.params if p.type == "RichMesh" and p.keyword not in given]
     if not missing or current not in shown:
         return {}
-    places = parameter_info.default_places(known.name, missing, len(shown), shown.index(current))
+    places = filter_info.default_places(known.name, missing, len(shown), shown.index(current))
     # Two filters take the second one also where there is one only.
     return {key: shown[min(place, len(shown) - 1)] for key, place in places.items()}
 

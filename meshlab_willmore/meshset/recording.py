@@ -17,11 +17,10 @@ from pymeshlab import MeshSet
 from ..mlx.read import read, read_bytes
 from ..mlx.steps import Param, Percentage, ScriptError, Step
 from . import catalogue, native
-from .check import faults_of, is_todays
+from .check import faults_of, is_todays, modernised
 from .filter import Filter
+from .filter_info import keyword_of
 from .filters import FILTERS
-from .modern import modernised
-from .parameter_info import keyword_of
 
 # The logical ids of a native step, by the keyword of the parameter.
 Ids = dict[str, int]

@@ -19,7 +19,7 @@ import pymeshlab
 
 from ..machine import temporary_folder
 from . import layers, native, ply
-from .parameter_info import python_name
+from .filter_info import python_name
 
 MESH_FILE = "mesh.ply"
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from ..mlx import rich
 from ..mlx.steps import Param, Percentage, Value, quoted
-from .parameter_info import ParamInfo
+from .filter_info import ParamInfo
 
 # MeshLab keeps values of one kind for types that it writes differently; between two kinds it reads
 # zero, or an empty text.

@@ -10,7 +10,7 @@ from pathlib import Path
 import pymeshlab
 import pytest
 
-from meshlab_willmore.meshset import catalogue, native, parameter_info
+from meshlab_willmore.meshset import catalogue, filter_info, native
 from meshlab_willmore.meshset.catalogue import closest, everything, find
 from meshlab_willmore.meshset.filters import BY_NAME, FILTERS
 from meshlab_willmore.mlx import rich
@@ -44,7 +44,7 @@ PYTHON_TYPES = {
 @pytest.fixture(autouse=True)
 def fresh():
     """What a test made the catalogue believe does not outlive it."""
-    caches = (catalogue._read, catalogue._by_meshlab_name, parameter_info._defaults)
+    caches = (catalogue._read, catalogue._by_meshlab_name, filter_info._defaults)
     for cached in caches:
         cached.cache_clear()
     yield
@@ -100,7 +100,7 @@ def test_keywords_and_types_are_those_that_pymeshlab_prints(capfd):
 @recorded_here
 def test_choices_are_those_that_pymeshlab_names():
     recorded = {known.name: [p.choices for p in known.params] for known in map(find, NATIVES)}
-    told = {name: [p.choices for p in parameter_info.params(name)] for name in NATIVES}
+    told = {name: [p.choices for p in filter_info.params(name)] for name in NATIVES}
     assert told == recorded
     assert sum(len(choices) > 1 for params in told.values() for choices in params) > 50
 
@@ -346,7 +346,7 @@ def test_types_that_are_guessed():
     wrong = {
         (name, own.name, own.type, guess.type)
         for name in NATIVES
-        for own, guess in zip(find(name).params, parameter_info.params(name), strict=True)
+        for own, guess in zip(find(name).params, filter_info.params(name), strict=True)
         if alike.get(own.type, own.type) != guess.type
     }
     # Their defaults are numbers, whatever the ids of the meshes.
@@ -416,7 +416,7 @@ def test_what_a_plugin_prints_when_it_is_asked_is_not_seen(capfd, monkeypatch):
         return quiet(*args, **given)
 
     monkeypatch.setattr(native, "defaults", noisy)
-    assert len(parameter_info.params(REMESH)) == 12
+    assert len(filter_info.params(REMESH)) == 12
     assert capfd.readouterr() == ("", "")
 
 

@@ -1,4 +1,4 @@
-"""What is known of a filter's parameter, and what PyMeshLab itself tells of it.
+"""What is known of a filter and its parameters, and what PyMeshLab itself tells of these.
 
 PyMeshLab tells keywords, defaults and, by what it refuses, types and choices. It needs a mesh for
 that, and some filters crash without one, so it is asked about a small mesh in a set of its own.
@@ -63,6 +63,49 @@ class ParamInfo(NamedTuple):
     choices: tuple[str, ...]
     required: bool
     guessed: bool = False
+
+
+class FilterInfo(NamedTuple):
+    """A filter.
+
+    Attributes
+    ----------
+    name, meshlab_name : str
+        The name in PyMeshLab, and the one in MeshLab and its scripts (empty where nobody knows it).
+    params : tuple of ParamInfo
+        In MeshLab's order.
+    is_willmore : bool
+        Whether it is a filter of this package.
+    makes_layers : bool
+        Whether it can add meshes to a set.
+    summary : str
+        What it does; of MeshLab's own, where that can be read.
+    needs_mesh : bool
+        Whether it fails on an empty set.
+    available : bool
+        Whether the PyMeshLab at hand has it.
+    """
+
+    name: str
+    meshlab_name: str
+    params: tuple[ParamInfo, ...]
+    is_willmore: bool
+    makes_layers: bool
+    summary: str
+    needs_mesh: bool = True
+    available: bool = True
+
+    def param(self, name: str) -> ParamInfo | None:
+        """The parameter of that name in MeshLab or PyMeshLab."""
+        for param in self.params:
+            if name in (param.name, param.keyword):
+                return param
+            if param.guessed and keyword_of(name) == param.keyword:
+                return param
+        return None
+
+
+# --- asking PyMeshLab -----------------------------------------------------------------------------
 
 
 def params(name: str) -> tuple[ParamInfo, ...]:

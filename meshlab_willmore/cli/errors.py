@@ -27,6 +27,11 @@ _PRELUDE = re.compile(r"(?:Error d|D)etails:|Unable to (?:open|save) file:[^\n]*
 # How a command line of meshlabserver begins.
 _OLD_OPTIONS = ("-i", "-o", "-s", "-l", "-m", "-p", "-w", "-x", "-d")
 _SCRIPT = ".mlx"
+# What faults of scripts name a function of Python for.
+_COMMANDS = {
+    "pymeshlab.print_filter_list()": "'meshlab-willmore filters'",
+    "pymeshlab.print_plugin_list()": "'meshlab-willmore doctor'",
+}
 
 # A shell reports this plus its number for a process that a signal ended.
 SIGNAL_EXIT = 128
@@ -38,7 +43,7 @@ class FaultyScript(click.ClickException):
     """A filter script with faults: a line for each, exit code 1."""
 
     def __init__(self, error: ScriptError) -> None:
-        super().__init__(str(error))
+        super().__init__(with_commands(str(error)))
 
     def show(self, file: Any = None) -> None:
         """Print the faults."""
@@ -131,6 +136,13 @@ def _as_click_error(error: Exception) -> click.ClickException:
 def one_line(error: BaseException) -> str:
     """The message of an error in one line; its type if it has none."""
     return " ".join(str(error).split()) or type(error).__name__
+
+
+def with_commands(text: str) -> str:
+    """Text about a script, with commands in place of the Python functions that it names."""
+    for function, command in _COMMANDS.items():
+        text = text.replace(function, command)
+    return text
 
 
 def reason(error: BaseException) -> str:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from .errors import WrongUse, debug_option
+from .errors import WrongUse, debug_option, with_commands
 from .paths import STANDARD_STREAM, matches, read_script, refuse_folder
 from .text import counted
 
@@ -59,7 +59,7 @@ def _is_ok(path: Path) -> bool:
     """Whether a script has no errors; prints errors and warnings."""
     found = _examined(path)
     for fault in found.faults:
-        click.echo(f"{path}: {fault}")
+        click.echo(with_commands(f"{path}: {fault}"))
     for warning in found.warnings:
         click.echo(f"{path}: warning: {warning}")
     if not found.faults:

@@ -369,7 +369,7 @@ def _absent(name: str) -> str:
     if last:
         return f"MeshLab had this filter until {last}, and has none in its place"
     return "no such filter; " + _meant(
-        name, catalogue.closest(name), "'meshlab-willmore filters' lists them"
+        name, catalogue.closest(name), "pymeshlab.print_filter_list() lists them"
     )
 
 
@@ -377,8 +377,8 @@ def _unavailable(known: FilterInfo) -> str:
     recorded, here = catalogue.recorded_version(), catalogue.version()
     reason = "its plugin is not loaded here"
     if recorded != here:
-        reason = f"PyMeshLab {here} has not got it, or not loaded its plugin"
-    cure = "'meshlab-willmore doctor' tells more"
+        reason = f"PyMeshLab {here} does not have it, or has not loaded its plugin"
+    cure = "pymeshlab.print_plugin_list() shows what is there"
     return f"is a filter of PyMeshLab {recorded}, but {reason}; {cure}"
 
 

@@ -38,6 +38,15 @@ def test_fine_scripts():
     assert result.stdout == "a.mlx: ok, 2 steps\nb.mlx: ok, 1 step\n"
 
 
+@pytest.mark.parametrize("command", [("lint",), ("run", "-s"), ("convert",)])
+def test_a_filter_that_nobody_knows_is_answered_with_a_command(command):
+    script_file(("Qqqqq", {}), path="a.mlx")
+    result = call(*command, "a.mlx", *(["b.mlx"] if command == ("convert",) else []))
+    text = "a.mlx: step 1 (Qqqqq): no such filter; 'meshlab-willmore filters' lists them"
+    assert text in result.output
+    assert result.exit_code == 1
+
+
 def test_every_fault_of_every_script_has_a_line():
     script_file(("Taubin Smoth", {}), (FLIP[0], {"mxflips": ("RichInt", 1)}), path="a.mlx")
     script_file(FLIP, path="b.mlx")

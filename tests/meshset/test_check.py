@@ -90,7 +90,9 @@ CORPUS = [
         "'get_geometric_measures' or 'get_topological_measures'?",
         step("get_willmore_measure"),
     ),
-    broken("step 1 (qqqqq): no such filter; 'meshlab-willmore filters' lists them", step("qqqqq")),
+    broken(
+        "step 1 (qqqqq): no such filter; pymeshlab.print_filter_list() lists them", step("qqqqq")
+    ),
     # names of parameters
     broken(
         f"step 1 ({REMESH}), parameter 'Targetlen': no such parameter; did you mean 'TargetLen'? "
@@ -406,12 +408,13 @@ def test_a_filter_whose_plugin_is_not_loaded(monkeypatch):
     monkeypatch.setattr(catalogue, "_there", lambda: there)
     monkeypatch.setattr(catalogue, "recorded_version", lambda: "2099.1")
     monkeypatch.setattr(catalogue, "version", lambda: "2099.1")
-    words = "is a filter of PyMeshLab 2099.1, but {}; 'meshlab-willmore doctor' tells more"
+    words = "is a filter of PyMeshLab 2099.1, but {}; "
+    words += "pymeshlab.print_plugin_list() shows what is there"
     steps = [Step(HAUSDORFF)]
     assert [f.text for f in faults_of(steps)] == [words.format("its plugin is not loaded here")]
     monkeypatch.setattr(catalogue, "version", lambda: "2098.7")
     assert [f.text for f in faults_of(steps)] == [
-        words.format("PyMeshLab 2098.7 has not got it, or not loaded its plugin")
+        words.format("PyMeshLab 2098.7 does not have it, or has not loaded its plugin")
     ]
 
 

@@ -40,6 +40,7 @@ _load_filter_script = inspect.unwrap(MeshSet.load_filter_script)
 _load_new_mesh = inspect.unwrap(MeshSet.load_new_mesh)
 _mesh = inspect.unwrap(MeshSet.mesh)
 _mesh_id_exists = inspect.unwrap(MeshSet.mesh_id_exists)
+_print_filter_script = inspect.unwrap(MeshSet.print_filter_script)
 _save_filter_script = inspect.unwrap(MeshSet.save_filter_script)
 _set_current_mesh = inspect.unwrap(MeshSet.set_current_mesh)
 _set_mesh_visibility = inspect.unwrap(MeshSet.set_mesh_visibility)
@@ -208,11 +209,22 @@ def unrecorded(ms: MeshSet) -> Iterator[None]:
             if _script(ms, path.with_name("after.mlx")) != before:
                 clear_script(ms)
                 if b"<filter" in before:
-                    with muted():
-                        _load_filter_script(ms, str(path))
+                    _load_script(ms, path)
 
 
 _WHOLE_SCRIPT = (b"</FilterScript>", b"<FilterScript/>")
+
+
+def _load_script(ms: MeshSet, path: Path) -> None:
+    with muted():
+        _load_filter_script(ms, str(path))
+
+
+def script_listing(path: Path) -> str:
+    """What PyMeshLab prints of the filter script in a file."""
+    ms = MeshSet()
+    _load_script(ms, path)
+    return printed(lambda: _print_filter_script(ms))
 
 
 def clear_script(ms: MeshSet) -> None:

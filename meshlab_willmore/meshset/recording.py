@@ -8,14 +8,16 @@ native steps were called with, where our filters have shifted them (see `ids`).
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 from pymeshlab import MeshSet
 
+from ..machine import temporary_folder
 from ..mlx.read import read, read_bytes
 from ..mlx.steps import Param, Percentage, ScriptError, Step
+from ..mlx.write import write
 from . import catalogue, native
 from .check import faults_of, is_todays, modernised
 from .filter import Filter
@@ -191,103 +193,25 @@ def _with_ids(step: Step, ids: Ids) -> Step:
 
 # --- printing ----------------------------------------------------------------------------------
 
-_ROW = 4
-_POINT = "numpy.ndarray[numpy.float64[3]]"
-
-# PyMeshLab's names for the types of parameters.
-_TYPE_NAMES = {
-    "RichBool": "bool",
-    "RichInt": "int",
-    "RichMesh": "int",
-    "RichFloat": "float",
-    "RichDynamicFloat": "float (bounded)",
-    "RichAbsPerc": "PercentageValue",
-    "RichColor": "Color",
-    "RichPosition": _POINT,
-    "RichDirection": _POINT,
-    "RichPoint3f": _POINT,
-    "RichMatrix44f": "numpy.ndarray[numpy.float64[4, 4]]",
-    "RichShotf": "Shotf [still unsupported]",
-}
+# A percentage of this range is printed as it is.
+_PERCENT_RANGE = (("min", "0"), ("max", "100"))
 
 
-def listing(steps: Sequence[Step]) -> str:
-    """The text of a script as `MeshSet.print_filter_script` prints it."""
-    lines = [f"Filter Script Size : {len(steps)}", ""]
-    for index, step in enumerate(steps):
-        lines.append(f"{index}: {keyword_of(step.filter)}")
-        lines += [f"\t{_line(step, param)}" for param in step.params]
-        lines.append("")
-    return "\n".join(lines)
+def listing(steps: Iterable[Step]) -> str:
+    """The text that PyMeshLab prints of a script, which it reads from a file for it."""
+    with temporary_folder() as folder:
+        path = folder / "script.mlx"
+        write(path, map(_with_ranges, steps))
+        return native.script_listing(path)
 
 
-def _line(step: Step, param: Param) -> str:
-    kind = param.type
-    if not kind:
-        known = catalogue.find(step.filter)
-        own = known.param(param.name) if known else None
-        kind = own.type if own else ""
-    show = _SHOWN.get(kind, _text)
-    return f"{keyword_of(param.name)} : {_TYPE_NAMES.get(kind, 'str')} = {show(param)}"
-
-
-def _text(param: Param) -> str:
-    return f"'{param.value}'"
-
-
-def _number(param: Param) -> str:
-    return f"{param.value:g}" if isinstance(param.value, float) else str(param.value)
-
-
-def _enum(param: Param) -> str:
-    return f"'{dict(param.details).get(f'enum_val{param.value}', param.value)}'"
-
-
-def _share(param: Param) -> str:
-    """PyMeshLab prints a percentage, of the range that the script gives."""
-    if isinstance(param.value, Percentage):
-        return f"{param.value.percent:g}%"
-    details = dict(param.details)
-    low, high = float(details.get("min", 0)), float(details.get("max", 0))
-    if high == low or not isinstance(param.value, (int, float)):
-        return str(param.value)
-    # The range has six digits, so the last one of the quotient means nothing.
-    return f"{(param.value - low) / (high - low) * 100:.5g}%"
-
-
-def _bounded(param: Param) -> str:
-    details = dict(param.details)
-    return f"{_number(param)} [min: {details.get('min', '')}; max: {details.get('max', '')}]"
-
-
-def _joined(separator: str, ends: str = "[]") -> Callable[[Any], str]:
-    def join(numbers: Any) -> str:
-        return ends[0] + separator.join(f"{number:g}" for number in numbers) + ends[1]
-
-    return join
-
-
-_comma, _semicolon = _joined(", "), _joined("; ")
-
-
-def _matrix(param: Param) -> str:
-    values = param.value if isinstance(param.value, tuple) else ()
-    rows = [_comma(values[i : i + _ROW]) for i in range(0, len(values), _ROW)]
-    return f"[{','.join(rows)}]"
-
-
-_SHOWN: dict[str, Callable[[Param], str]] = {
-    "RichBool": lambda param: str(param.value),
-    "RichInt": _number,
-    "RichMesh": _number,
-    "RichFloat": _number,
-    "RichEnum": _enum,
-    "RichAbsPerc": _share,
-    "RichDynamicFloat": _bounded,
-    "RichColor": lambda param: _semicolon(param.value),
-    "RichPosition": lambda param: _comma(param.value),
-    "RichDirection": lambda param: _comma(param.value),
-    "RichPoint3f": lambda param: _comma(param.value),
-    "RichMatrix44f": _matrix,
-    "RichShotf": lambda _: "None",
-}
+def _with_ranges(step: Step) -> Step:
+    """The step with a range for each percentage, which PyMeshLab can't read without one."""
+    return step._replace(
+        params=tuple(
+            p._replace(value=p.value.percent, details=_PERCENT_RANGE)
+            if isinstance(p.value, Percentage)
+            else p
+            for p in step.params
+        )
+    )

@@ -265,8 +265,8 @@ def _print_filter_script(before: Callable, ms: MeshSet) -> None:
         before(ms)
         return
     with _as_pymeshlab_error():
-        steps = recording.steps_of(ms)
-    print(recording.listing(steps))
+        text = recording.listing(recording.steps_of(ms))
+    print(text, end="")
 
 
 def _clear_filter_script(before: Callable, ms: MeshSet) -> None:

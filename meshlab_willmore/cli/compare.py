@@ -15,10 +15,10 @@ import click
 from .. import quick_start
 from ..options import ALLOWLOSS, ENERGY, SEARCH, SELECTION
 from . import compare_row, progress
+from .arguments import json_option
 from .compare_row import Comparison, Outcome, check_reference
 from .errors import WrongUse, debug_option, is_debug
 from .flip import check_options, filter_options
-from .options import json_option
 from .paths import only_input
 from .text import for_json, table
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import click
 
 from ..files import is_stream, write
+from .arguments import force_option
 from .errors import debug_option
-from .options import force_option
 from .paths import STANDARD_STREAM, check_place, read_script
 
 if TYPE_CHECKING:

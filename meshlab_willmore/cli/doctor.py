@@ -20,8 +20,8 @@ import click
 from .. import machine
 from .._version import __version__
 from . import progress
+from .arguments import json_option
 from .errors import debug_option
-from .options import json_option
 from .text import counted
 
 EXAMPLES = """\b

@@ -10,8 +10,8 @@ import click
 
 from ..options import OPTIONS, Option
 from . import loading, progress
+from .arguments import SeveralParts, force_option, mask_option
 from .errors import WrongUse, debug_option, reason
-from .options import SeveralParts, force_option, mask_option
 from .paths import check_output, only_input
 from .text import flip_results
 

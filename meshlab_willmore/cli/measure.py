@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from . import loading, progress
+from .arguments import json_option
 from .errors import WrongUse, debug_option, failure_of, is_debug, one_line, reason, stops_all
-from .options import json_option
 from .paths import find_inputs
 from .text import fitted, for_json, how_many_failed, table
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import click
 
 from . import loading, paths, progress, runlog
+from .arguments import LAYER_HELP, force_option, mask_option, take_outputs
 from .errors import (
     WrongUse,
     debug_option,
@@ -21,7 +22,6 @@ from .errors import (
     one_line,
     stops_all,
 )
-from .options import LAYER_HELP, force_option, mask_option, take_outputs
 from .paths import Job, Output, Script
 from .runlog import log
 from .text import counted, how_many_failed, step_results

@@ -8,7 +8,7 @@ import pytest
 
 from meshlab_willmore.cli import flip
 from meshlab_willmore.cli import run as run_module
-from meshlab_willmore.cli.options import GONE, take_outputs
+from meshlab_willmore.cli.arguments import GONE, take_outputs
 
 from .conftest import TAUBIN, call, cube_file, listing, loaded, script_file
 
@@ -139,7 +139,7 @@ SIZES = {"cube": 14, "square": 4, "triangle": 3}
     ("layer", "mesh"),
     [("0", "cube"), ("1", "square"), ("2", "triangle"), ("x", "triangle"), ("c", "cube")],
 )
-def test_a_layer_is_saved(run, layer, mesh):
+def test_chosen_layer_is_saved(run, layer, mesh):
     before = listing()
     result = call(*run, "-o", "out.ply", "-l", layer, "-m", "vn")
     assert (result.exit_code, result.stderr) == (0, "")
@@ -170,20 +170,20 @@ def test_outputs_have_layers_in_any_order(run):
     }
 
 
-def test_several_names_are_outputs_in_the_order_of_the_layers(run):
+def test_several_names_are_outputs_of_the_first_layers(run):
     assert call(*run, "-o", "a.ply", "b.ply", "c.ply", "-m", "vn").exit_code == 0
     assert [len(loaded(f"{name}.ply").vertices) for name in "abc"] == list(SIZES.values())
     assert all(b"property double nx" in Path(f"{name}.ply").read_bytes() for name in "abc")
 
 
-def test_a_layer_that_is_not_there_is_named_before_anything_is_saved(run):
+def test_missing_layer_is_reported_before_saving(run):
     result = call(*run, "-o", "a.ply", "-l", "0", "-o", "b.ply", "-l", "3")
     assert result.exit_code == 1
     assert result.stderr == "Error: there is no layer 3: the script leaves 3 layers, from 0\n"
     assert not Path("a.ply").exists()
 
 
-def test_a_log_before_the_outputs_or_by_its_long_name(run):
+def test_log_before_the_outputs_or_by_its_long_name(run):
     for given in (
         ["-l", "log.txt", "-o", "a.ply", "-l", "1"],
         ["-o", "b.ply", "-l", "1", "--log", "log.txt"],
@@ -192,7 +192,7 @@ def test_a_log_before_the_outputs_or_by_its_long_name(run):
     assert Path("log.txt").read_text().count(" run script.mlx\n") == 2
 
 
-def test_polygons_and_text_as_meshlabserver_had_them():
+def test_polygons_and_text_files():
     quads = ["v 0 0 0", "v 1 0 0", "v 1 1 0", "v 0 1 0", "f 1 2 3 4"]
     Path("quad.obj").write_text("\n".join(quads) + "\n")
     script = script_file(("Select None", {}))
@@ -221,7 +221,7 @@ def test_every_combination_of_two_outputs(run):
         (["-i", "cube.ply", "-o", "b.mlp"], "b.mlp: projects are not written; each layer can have"),
     ],
 )
-def test_projects_are_named_as_such(option, line):
+def test_projects_are_refused(option, line):
     cube_file()
     Path("a.mlp").write_text("<!DOCTYPE MeshLabDocument>\n<MeshLabProject/>\n")
     result = call("run", script_file(TAUBIN), *option)

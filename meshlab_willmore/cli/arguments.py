@@ -1,4 +1,4 @@
-"""Options that several commands have, and those of `run` in the spelling of `meshlabserver`.
+"""Options of several commands, and the arguments of `run` in the spelling of `meshlabserver`.
 
 Its ``-i``, ``-o`` and ``-m`` take several values. Its ``-l`` was a log; since 2017 it is also the
 layer that the ``-o`` just before it saves.

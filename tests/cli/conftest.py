@@ -115,6 +115,23 @@ def script_file(*steps, path="script.mlx"):
     return Path(path)
 
 
+# Names of filters and parameters that have changed since.
+HISTORIC = """<!DOCTYPE FilterScript>
+<FilterScript>
+ <filter name="Surface Reconstruction: Poisson">
+  <Param type="RichInt" name="OctDepth" value="7"/>
+  <Param type="RichFloat" name="SamplesPerNode" value="1"/>
+  <Param type="RichFloat" name="Offset" value="2"/>
+ </filter>
+ <filter name="Change the current layer">
+  <Param type="RichMesh" name="mesh" value="1"/>
+ </filter>
+ <filter name="Transform: Rotate">
+  <Param name="ToAll" value="true"/>
+ </filter>
+</FilterScript>
+"""
+
 FLIP = ("Willmore flipping optimization", {})
 TAUBIN = ("Taubin Smooth", {"stepSmoothNum": ("RichInt", 2)})
 
@@ -142,3 +159,13 @@ def same_mesh(left, right):
 def listing(folder="."):
     """All that is in a folder, hidden files too."""
     return sorted(os.listdir(folder))
+
+
+@pytest.fixture
+def cube():
+    return cube_file()
+
+
+@pytest.fixture
+def script():
+    return script_file(FLIP, TAUBIN)

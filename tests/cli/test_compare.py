@@ -25,11 +25,6 @@ NAMES = ["initial", "greedy, willmore", *(peer.name for peer in contenders.PEERS
 
 
 @pytest.fixture
-def cube():
-    return cube_file()
-
-
-@pytest.fixture
 def rows(monkeypatch):
     """The rows that were run, of which each is done; a test can say what else becomes of one."""
     ran = {}
@@ -88,7 +83,7 @@ def assert_row(row, vertices, before, faces):
     assert (row["self_intersecting"], row["timed_out"], row["error"]) == (0, False, None)
 
 
-def test_the_table_is_laid_out_exactly(cube, rows):
+def test_table_layout(cube, rows):
     rows["becomes"][NAMES[1]] = compare_row.Outcome(timed_out=True)
     rows["becomes"][NAMES[2]] = compare_row.Outcome(error="crashed (SIGSEGV)")
     result = call("compare", cube, *CHOSEN, "--timeout", "1.5")
@@ -118,7 +113,7 @@ def test_a_filter_that_is_too_slow_is_no_failure(cube, rows):
     assert {row[key] for key in (*Figures._fields, "seconds", "error")} == {None}
 
 
-def test_a_reference_adds_two_columns(cube, rows):
+def test_reference_adds_two_columns(cube, rows):
     figures = SOME._replace(normal_error=9.634, distance=0.0156789)._asdict()
     rows["becomes"]["initial"] = compare_row.Outcome(None, figures)
     nan = SOME._replace(normal_error=1.0, distance=float("nan"))._asdict()
@@ -177,7 +172,7 @@ def test_parameters_of_the_filter_are_those_of_all_its_rows(cube, rows):
     assert rows[NAMES[1]][1].given["monotone"] is False
 
 
-def test_help_leaves_out_what_is_the_same_for_all():
+def test_help_omits_parameters_that_are_the_same_for_all_rows():
     text = call("compare", "--help").stdout
     assert "--selection" not in text
     assert "--allowloss" not in text
@@ -194,7 +189,7 @@ def test_debug_shows_the_traceback_of_a_row(cube, rows):
     assert "Traceback of bad luck\n\nError: " in call(*arguments, "--debug").stderr
 
 
-def test_what_a_row_does_is_told():
+def test_progress_shows_the_phase_of_a_row():
     status = Status("cube.ply", 2, lambda: 0.0)
     status.next("initial: reading")
     status.next("greedy, area: reading")
@@ -202,7 +197,7 @@ def test_what_a_row_does_is_told():
     assert status.line(80) == "cube.ply  [########--------]  50%  greedy, area: running, 0 s"
 
 
-def test_a_mesh_that_cannot_be_measured_ends_it(cube, rows):
+def test_initial_mesh_that_cannot_be_measured_is_an_error(cube, rows):
     rows["becomes"]["initial"] = compare_row.Outcome(error="there is something wrong")
     result = call("compare", cube, "--json")
     assert (result.exit_code, result.stdout) == (1, "")
@@ -222,7 +217,7 @@ def test_a_mesh_that_cannot_be_measured_ends_it(cube, rows):
     ],
 )
 @pytest.mark.slow
-def test_failures_are_one_line(cube, arguments, line):
+def test_failures_are_reported_in_one_line(cube, arguments, line):
     Path("bad.ply").write_text("no mesh")
     Path("points.xyz").write_text("0 0 0\n1 0 0\n0 1 0\n")
     result = call("compare", *arguments)
@@ -255,7 +250,7 @@ def test_failures_are_one_line(cube, arguments, line):
         (["cube.ply", "--reference", "torus:3,,1"], "--reference torus:3,,1: '' is no radius"),
     ],
 )
-def test_wrong_use(cube, rows, arguments, line):
+def test_wrong_usage(cube, rows, arguments, line):
     cube_file("other.ply")
     result = call("compare", *arguments)
     assert (result.exit_code, result.stdout) == (2, "")

@@ -44,7 +44,7 @@ def temporary(tmp_path_factory, monkeypatch):
 
 
 @pytest.mark.slow
-def test_a_row_goes_through_its_phases(task):
+def test_phases_of_a_row(task):
     said = []
     outcome = compare_row.run(task, OWN, said.append)
     assert said == [compare_row.WARMING, compare_row.RUNNING, compare_row.MEASURING]
@@ -53,7 +53,7 @@ def test_a_row_goes_through_its_phases(task):
 
 
 @pytest.mark.slow
-def test_a_filter_that_is_too_slow_is_killed(task):
+def test_slow_filter_is_stopped(task):
     said = []
     start = time.perf_counter()
     outcome = compare_row.run(task._replace(timeout=0.5), ENDLESS, said.append)
@@ -63,7 +63,7 @@ def test_a_filter_that_is_too_slow_is_killed(task):
 
 
 @pytest.mark.slow
-def test_a_crash_is_told_and_a_fault_has_its_reason(task):
+def test_crash_and_error_are_reported(task):
     assert compare_row.run(task, DEADLY, print).error.startswith("crashed (SIG")
     outcome = compare_row.run(task, FAULTY, print)
     assert "nonsense" in outcome.error
@@ -72,12 +72,12 @@ def test_a_crash_is_told_and_a_fault_has_its_reason(task):
     assert (outcome.figures, outcome.timed_out) == (None, False)
 
 
-def test_a_process_that_does_not_begin_is_told(task, monkeypatch):
+def test_process_that_does_not_start_is_reported(task, monkeypatch):
     monkeypatch.setattr(compare_row, "_PROGRAM", "import sys; sys.exit(3) # {path} {module}")
     assert compare_row.run(task, OWN, print).error == "the process ended with exit code 3"
 
 
-def test_the_filter_is_warmed_up_before_the_clock_starts(task, monkeypatch):
+def test_filter_is_warmed_up_before_timing(task, monkeypatch):
     events = []
     monkeypatch.setattr(contenders, "warm_up", lambda *given: events.append(given))
     given = {"filter": OWN.filter, "given": OWN.given}
@@ -86,7 +86,7 @@ def test_the_filter_is_warmed_up_before_the_clock_starts(task, monkeypatch):
     assert events == [compare_row.WARMING, warmed, compare_row.RUNNING, compare_row.MEASURING]
 
 
-def test_what_a_filter_prints_is_no_answer(task, monkeypatch):
+def test_output_of_a_filter_is_no_answer(task, monkeypatch):
     noisy = (
         "import os, sys; sys.path[:] = {path!r}; from {module} import main, Outcome\n"
         "import {module} as row\n"
@@ -97,7 +97,7 @@ def test_what_a_filter_prints_is_no_answer(task, monkeypatch):
     assert compare_row.run(task, OWN, print) == Outcome(6.0)
 
 
-def test_files_that_a_dead_process_left_are_removed(task, monkeypatch):
+def test_files_of_a_crashed_process_are_removed(task, monkeypatch):
     # The fixture looks into the folder.
     program = "import os, tempfile; tempfile.mkdtemp(); os.abort() # {path} {module}"
     monkeypatch.setattr(compare_row, "_PROGRAM", program)
@@ -105,7 +105,7 @@ def test_files_that_a_dead_process_left_are_removed(task, monkeypatch):
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="loads in a process of its own on Linux")
-def test_a_load_that_does_not_end_is_ended_with_its_process(monkeypatch):
+def test_hanging_load_is_killed_with_its_process(monkeypatch):
     """Else the end would wait for it: it holds the pipe of the answers."""
     program = "import os, time; os.write(1, b'%d\\n' % os.fork()); time.sleep(1000)"
     monkeypatch.setattr(compare_row, "_PROGRAM", program)
@@ -114,7 +114,7 @@ def test_a_load_that_does_not_end_is_ended_with_its_process(monkeypatch):
     assert 0 in children
 
 
-def test_modules_of_the_working_directory_hide_no_others(task):
+def test_files_of_the_working_folder_do_not_hide_modules(task):
     Path("json.py").write_text("raise ImportError('a file of the user')")
     Path("click.py").write_text("raise ImportError('a file of the user')")
     initial = Contender("initial", "", {})
@@ -122,7 +122,7 @@ def test_modules_of_the_working_directory_hide_no_others(task):
 
 
 @pytest.mark.slow
-def test_the_time_limit_is_for_the_filter_alone(task, monkeypatch):
+def test_time_limit_is_for_the_filter_alone(task, monkeypatch):
     slow = (
         "import sys, time; sys.path[:] = {path!r}; from {module} import main\n"
         "from meshlab_willmore.compare import contenders\n"

@@ -32,13 +32,13 @@ def answering(monkeypatch, values, printed=""):
 # The command
 
 
-def test_a_fit_machine(monkeypatch):
+def test_all_checks_pass(monkeypatch):
     monkeypatch.setattr(doctor, "CHECKS", (lambda: Finding("one", True, "is fine"),))
     result = call("doctor")
     assert (result.exit_code, result.stdout) == (0, "ok   one: is fine\nAll checks passed.\n")
 
 
-def test_a_problem_has_its_cure(monkeypatch):
+def test_failed_check_has_a_fix(monkeypatch):
     bad = Finding("two", False, "is gone", "apt-get install two")
     monkeypatch.setattr(doctor, "CHECKS", (lambda: Finding("one", True, "is fine"), lambda: bad))
     result = call("doctor")
@@ -60,7 +60,7 @@ def test_a_problem_has_its_cure(monkeypatch):
 
 @pytest.mark.heavy
 @pytest.mark.slow
-def test_this_machine_is_fit():
+def test_checks_pass_on_this_machine():
     result = call("doctor", "--json")
     assert result.exit_code == 0, result.stdout
     report = json.loads(result.stdout)
@@ -84,7 +84,7 @@ def without_gl(tmp_path, monkeypatch):
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
 
 
-def test_a_missing_library_is_named(without_gl, on_debian):
+def test_missing_library_is_named(without_gl, on_debian):
     finding = doctor.pymeshlab()
     assert finding == Finding(
         "PyMeshLab", False, "can't be loaded: libGL.so.1 is missing or broken", APT
@@ -96,7 +96,7 @@ def test_a_missing_library_is_named(without_gl, on_debian):
 
 @NEEDS_LINUX
 @pytest.mark.slow
-def test_plugins_that_did_not_load_and_their_filters(tmp_path, monkeypatch, on_debian):
+def test_missing_plugins_and_filters_are_named(tmp_path, monkeypatch, on_debian):
     if catalogue.version() != catalogue.recorded_version():
         pytest.skip("other versions have other plugins")
     (tmp_path / "libOpenGL.so.0").write_text("no library")
@@ -111,12 +111,12 @@ def test_plugins_that_did_not_load_and_their_filters(tmp_path, monkeypatch, on_d
     assert finding.text.endswith(" more")
 
 
-def test_without_a_known_installer_all_commands_are_told(without_gl, monkeypatch):
+def test_all_install_commands_without_a_known_installer(without_gl, monkeypatch):
     monkeypatch.setattr(shutil, "which", lambda _: None)
     assert doctor.pymeshlab().cure == f"{APT} or dnf install mesa-libGL libglvnd-opengl"
 
 
-def test_filters_of_another_version_are_no_fault(monkeypatch):
+def test_missing_filters_in_another_version_are_no_failure(monkeypatch):
     values = {"registered": True, "missing": ["a"], "version": "2023.12", "recorded": "2025.7"}
     answering(monkeypatch, values)
     finding = doctor.filters()
@@ -129,7 +129,7 @@ def test_filters_of_another_version_are_no_fault(monkeypatch):
     assert not doctor.filters().ok
 
 
-def test_another_failure_of_the_import(monkeypatch):
+def test_other_import_errors(monkeypatch):
     answering(monkeypatch, {}, "Traceback\nImportError: numpy is too old")
     finding = doctor.pymeshlab()
     assert not finding.ok
@@ -148,7 +148,7 @@ def test_numba_that_cannot_compile(monkeypatch):
     assert finding.cure.endswith("-m pip install --upgrade numba")
 
 
-def test_more_threads_than_cores_are_told_of(monkeypatch):
+def test_more_threads_than_cores_are_reported(monkeypatch):
     monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
     answering(monkeypatch, {"threads": 2, "cores": 2})
     assert doctor.compiler() == Finding("Numba", True, "compiles; threads: 2")
@@ -158,14 +158,14 @@ def test_more_threads_than_cores_are_told_of(monkeypatch):
 
 
 @pytest.mark.parametrize("value", ["1", "2", "01"])
-def test_a_compiler_that_is_switched_off(monkeypatch, value):
+def test_compiler_switched_off(monkeypatch, value):
     monkeypatch.setenv("NUMBA_DISABLE_JIT", value)
     assert doctor.compiler().cure == "unset NUMBA_DISABLE_JIT"
     assert doctor.cache().ok
 
 
 @pytest.mark.slow
-def test_a_wrong_variable_is_the_same_fault_for_all_that_need_numba(monkeypatch):
+def test_wrong_variable_fails_all_checks_that_need_numba(monkeypatch):
     monkeypatch.setenv("NUMBA_NUM_THREADS", "x")
     monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
     problem = (
@@ -179,7 +179,7 @@ def test_a_wrong_variable_is_the_same_fault_for_all_that_need_numba(monkeypatch)
         assert check()[1:] == (False, *problem)
 
 
-def test_variables_that_can_be_are_listed(monkeypatch):
+def test_valid_variables_are_listed(monkeypatch):
     for name in [name for name in os.environ if name.startswith("NUMBA_")]:
         monkeypatch.delenv(name)
     answering(monkeypatch, {"wrong": False})
@@ -189,7 +189,7 @@ def test_variables_that_can_be_are_listed(monkeypatch):
     assert doctor.settings().text == "NUMBA_NUM_THREADS=2, NUMBA_OPT=3"
 
 
-def test_no_folder_for_the_cache(monkeypatch):
+def test_no_cache_folder(monkeypatch):
     monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
     answering(monkeypatch, {"folder": None, "steps": 9, "missing": None})
     finding = doctor.cache()
@@ -197,14 +197,14 @@ def test_no_folder_for_the_cache(monkeypatch):
     assert finding.cure.startswith("export NUMBA_CACHE_DIR=")
 
 
-def test_a_cache_that_cannot_be_asked_for_is_no_missing_folder(monkeypatch):
+def test_cache_that_cannot_be_read_is_no_missing_folder(monkeypatch):
     monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
     answering(monkeypatch, {}, "Traceback\nImportError: no LLVM")
     finding = doctor.cache()
     assert (finding.ok, finding.text) == (False, "can't be read: ImportError: no LLVM")
 
 
-def test_a_folder_of_the_users_that_is_of_no_use_for_the_cache(monkeypatch, tmp_path):
+def test_unusable_cache_folder(monkeypatch, tmp_path):
     monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
     file = tmp_path / "file"
     file.touch()
@@ -234,7 +234,7 @@ def test_damaged_files_of_the_cache_are_named(monkeypatch, tmp_path):
 
 
 @pytest.mark.parametrize("home", ["file", "relative", None])
-def test_a_home_that_nobody_can_write_is_no_cure(monkeypatch, tmp_path, home):
+def test_unwritable_home_is_not_suggested(monkeypatch, tmp_path, home):
     monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
     (tmp_path / "file").touch()
     homes = {"file": tmp_path / "file", "relative": Path("nowhere")}
@@ -249,7 +249,7 @@ def test_a_home_that_nobody_can_write_is_no_cure(monkeypatch, tmp_path, home):
     assert doctor.cache().cure == "export NUMBA_CACHE_DIR=/a/folder/of/yours"
 
 
-def test_a_cache_folder_tells_what_is_compiled(monkeypatch, tmp_path):
+def test_cache_shows_how_much_is_compiled(monkeypatch, tmp_path):
     monkeypatch.delenv("NUMBA_DISABLE_JIT", raising=False)
 
     def found(folder, missing):
@@ -273,14 +273,14 @@ def test_a_cache_folder_tells_what_is_compiled(monkeypatch, tmp_path):
 # The rest
 
 
-def test_an_old_python(monkeypatch):
+def test_old_python(monkeypatch):
     monkeypatch.setattr(sys, "version_info", (3, 9, 2))
     assert doctor.python() == Finding(
         "Python", False, "3.9.2 is too old", "install Python 3.10 or later"
     )
 
 
-def test_a_package_that_is_not_installed(monkeypatch):
+def test_package_not_installed(monkeypatch):
     monkeypatch.setattr(doctor, "LIBRARIES", ("numpy", "surely-no-such-package"))
     finding = doctor.libraries()
     assert (finding.ok, finding.text) == (False, "surely-no-such-package not installed")
@@ -325,19 +325,19 @@ def test_no_folder_for_temporary_files(monkeypatch):
 # Asking
 
 
-def test_an_answer_among_noise():
+def test_answer_among_other_output():
     answer = doctor.ask("print('Warning: noise', end='')\nanswer = {'a': 1}")
     assert answer == doctor.Answer({"a": 1}, "Warning: noise")
 
 
-def test_a_process_that_dies_has_no_answer():
+def test_crashed_process_has_no_answer():
     assert doctor.ask("import os\nos.abort()").values == {}
     answer = doctor.ask("raise ValueError('why')")
     assert answer.values == {}
     assert answer.printed.endswith("ValueError: why")
 
 
-def test_a_process_that_never_answers(monkeypatch):
+def test_process_that_never_answers(monkeypatch):
     monkeypatch.setattr(doctor, "_SECONDS", 0.2)
     answer = doctor.ask("import time\ntime.sleep(60)")
     assert answer == doctor.Answer({}, "no answer in 0.2 seconds")

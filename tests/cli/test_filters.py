@@ -10,7 +10,7 @@ from .conftest import call
 FLIP = "meshing_edge_flip_by_willmore_optimization"
 
 
-def test_the_list_has_every_filter_ours_first():
+def test_list_has_every_filter_with_ours_first():
     result = call("filters")
     names = [line.split()[0] for line in result.stdout.splitlines()]
     ours = sorted(filter_.name for filter_ in FILTERS)
@@ -26,7 +26,7 @@ def test_words_narrow_the_list():
 
 
 @pytest.mark.parametrize("name", ["apply_coord_taubin_smoothing", "Taubin Smooth"])
-def test_a_native_filter_is_explained(name):
+def test_native_filter_is_explained(name):
     result = call("filters", name)
     assert result.stdout.splitlines()[:2] == [
         "apply_coord_taubin_smoothing",
@@ -36,7 +36,7 @@ def test_a_native_filter_is_explained(name):
     assert "filter_list.html#apply_coord_taubin_smoothing" in result.stdout
 
 
-def test_ours_are_explained_with_all_that_the_filter_knows():
+def test_our_filters_are_explained_with_tooltips_and_results():
     text = call("filters", FLIP).stdout
     words = " ".join(text.split())
     (filter_,) = (filter_ for filter_ in FILTERS if filter_.name == FLIP)
@@ -50,14 +50,14 @@ def test_ours_are_explained_with_all_that_the_filter_knows():
     assert "energy: RichEnum, default 'virtual willmore'\n" in text
 
 
-def test_an_enum_of_a_native_filter_has_its_choices():
+def test_choices_of_a_native_filter_are_listed():
     text = call("filters", "generate_resampled_uniform_mesh").stdout
     assert "CellSize (keyword cellsize): RichAbsPerc, default " in text
     text = call("filters", "meshing_repair_non_manifold_edges").stdout
     assert "      0: Remove Faces\n      1: Split Vertices\n" in text
 
 
-def test_an_unknown_name_gets_the_closest():
+def test_unknown_name_suggests_the_closest():
     result = call("filters", "Taubn", "Smooth")
     assert (result.exit_code, result.stdout) == (2, "")
     assert result.stderr.startswith("Error: there is no filter 'Taubn Smooth'; the closest are")

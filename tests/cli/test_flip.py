@@ -13,11 +13,6 @@ from meshlab_willmore.options import OPTIONS, SEED
 from .conftest import call, cube_file, listing, same_mesh
 
 
-@pytest.fixture
-def cube():
-    return cube_file()
-
-
 @pytest.mark.parametrize(
     ("arguments", "given"),
     [
@@ -27,7 +22,7 @@ def cube():
         (["--featuredeg", "30"], {"featuredeg": 30.0}),
     ],
 )
-def test_flips_as_the_filter_does(cube, arguments, given):
+def test_flips_like_the_filter(cube, arguments, given):
     result = call("flip", cube, "out.ply", *arguments)
     ms = pymeshlab.MeshSet()
     ms.load_new_mesh("cube.ply")
@@ -88,7 +83,7 @@ def test_each_parameter_of_the_filter_is_an_option_of_its_type():
         (["points.xyz", "o.ply"], 1, "points.xyz: The current mesh has no faces, it is a point"),
     ],
 )
-def test_errors_are_one_line(cube, arguments, code, line):
+def test_errors_are_reported_in_one_line(cube, arguments, code, line):
     cube_file("two.ply")
     Path("points.xyz").write_text("0 0 0\n1 0 0\n0 1 0\n")
     before = listing()
@@ -119,7 +114,7 @@ def test_in_place_with_force(cube):
         ("--virtualpoint", "50%", "unknown virtualpoint '50%'; choose 'midpoint', 'closest' or"),
     ],
 )
-def test_wrong_values_are_wrong_use_before_anything_is_loaded(option, value, line):
+def test_wrong_values_are_reported_before_loading(option, value, line):
     result = call("flip", "there-is-none.ply", "out.ply", option, value)
     assert (result.exit_code, result.stdout) == (2, "")
     assert result.stderr.startswith(f"Error: {option}: ")

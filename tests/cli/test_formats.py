@@ -49,7 +49,7 @@ PARTS = {
         ("xyz", ["edges", *list(PARTS)[2:]]),
     ],
 )
-def test_what_a_format_has_no_place_for(ending, lost, capsys):
+def test_parts_that_a_format_cannot_hold(ending, lost, capsys):
     for part, given in PARTS.items():
         note = told(f"{part}.{ending}", capsys, **given)
         assert (f"no {part}" in note) == (part in lost), (part, note)
@@ -57,17 +57,17 @@ def test_what_a_format_has_no_place_for(ending, lost, capsys):
 
 
 @pytest.mark.parametrize("ending", ["ply", "obj", "off", "stl", "wrl", "dae", "PLY", "dxf"])
-def test_an_ordinary_mesh_gives_no_note(ending, capsys):
+def test_ordinary_mesh_gives_no_note(ending, capsys):
     assert told(f"a.{ending}", capsys) == ""
 
 
-def test_of_what_was_not_asked_for_nothing_is_missed(capsys):
+def test_no_note_on_parts_that_were_not_chosen(capsys):
     assert told("a.stl", capsys, SaveOptions(parts=("fc",)), **PARTS["vertex colours"]) == ""
     note = told("b.stl", capsys, SaveOptions(parts=("fc",)), **PARTS["edges"])
     assert note == "Note: b.stl: .stl files hold no edges\n"
 
 
-def test_a_texture_goes_where_it_can(capsys):
+def test_texture_in_formats_with_and_without_coordinates(capsys):
     ms = pymeshlab.MeshSet()
     ms.load_new_mesh(str(SAMPLES / "bunny10k_textured.obj"))
     save(ms, Path("a.wrl"), SaveOptions())
@@ -78,7 +78,7 @@ def test_a_texture_goes_where_it_can(capsys):
 
 @pytest.mark.parametrize("ending", ["ply", "obj", "off", "stl"])
 @pytest.mark.parametrize(("far", "merged"), [(0.0, 0), (2.0**20, 0), (2.0**24, 3), (1e9, 3)])
-def test_far_from_the_origin_vertices_fall_together(ending, far, merged, capsys):
+def test_vertices_merge_far_from_the_origin(ending, far, merged, capsys):
     grid = SQUARE + far
     note = told(f"a.{ending}", capsys, vertex_matrix=grid)
     if ending != "stl" or not merged:
@@ -88,7 +88,7 @@ def test_far_from_the_origin_vertices_fall_together(ending, far, merged, capsys)
         assert note.startswith(f"{start}: {merged} get the place of another")
 
 
-def test_small_details_are_no_matter_near_the_origin(capsys):
+def test_no_note_near_the_origin(capsys):
     cube = meshes.cube()
     assert told("a.stl", capsys, vertex_matrix=cube[0] + 3.0, face_matrix=cube[1]) == ""
 
@@ -103,7 +103,7 @@ def test_small_details_are_no_matter_near_the_origin(capsys):
         ("obj", 2e6, False),
     ],
 )
-def test_vertices_that_move_far_from_the_origin(ending, far, is_told, capsys):
+def test_vertices_move_far_from_the_origin(ending, far, is_told, capsys):
     slanted = SQUARE + [[0.1, 0.3, 0.1], [0.2, 0.1, 0.6], [0.4, 0.3, 0.2], [0.1, 0.2, 0.9]]
     slanted[:, :2] += far
     note = told(f"a.{ending}", capsys, vertex_matrix=slanted)

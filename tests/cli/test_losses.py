@@ -36,20 +36,20 @@ def told(path, capsys):
 
 
 @pytest.mark.parametrize("names", [("red.png", "blue.png"), ("gone.jpg",), ("tex/a.png", "b.png")])
-def test_textures_that_are_not_found(names, capsys):
+def test_missing_textures(names, capsys):
     path = square_with_textures(".", *names)
     assert told(path, capsys) == [
         f"textures that were not found, and became dummy.png: {', '.join(names)}"
     ]
 
 
-def test_textures_that_are_there_are_no_news(capsys):
+def test_existing_textures_give_no_note(capsys):
     path = square_with_textures(".", "red.png")
     Path("red.png").write_bytes(ONE_PIXEL)
     assert told(path, capsys) == []
 
 
-def test_names_with_blanks(capsys):
+def test_texture_names_with_blanks(capsys):
     path = square_with_textures(".", "my red.png", "blue.png")
     Path("my red.png").write_bytes(ONE_PIXEL)
     Path("blue.png").write_bytes(ONE_PIXEL)
@@ -63,7 +63,7 @@ def test_names_with_blanks(capsys):
     assert told("a.ply", capsys) == [odd]
 
 
-def test_a_material_file_that_is_not_there(capsys):
+def test_missing_material_file(capsys):
     path = square_with_textures(".", "red.png")
     Path("square.mtl").unlink()
     (note,) = told(path, capsys)
@@ -96,7 +96,7 @@ def as_stl():
 @pytest.mark.parametrize(
     ("name", "data"), [("a.off", as_off), ("a.obj", as_obj), ("a.stl", as_stl)]
 )
-def test_vertices_without_a_place(name, data, capsys):
+def test_vertices_with_nan_or_infinite_coordinates(name, data, capsys):
     Path(name).write_bytes(data())
     assert told(name, capsys) == [
         "vertices with NaN or infinite coordinates, left out with their faces: 2"
@@ -124,7 +124,7 @@ def test_faces_with_a_corner_twice(capsys):
         ("float s;float t", []),
     ],
 )
-def test_properties_that_are_not_read(properties, unknown, capsys):
+def test_unread_properties(properties, unknown, capsys):
     names = properties.split(";")
     value = " 2 1 1" if "list" in properties else " 1"
     Path("a.ply").write_text(
@@ -134,7 +134,7 @@ def test_properties_that_are_not_read(properties, unknown, capsys):
     assert told("a.ply", capsys) == expected
 
 
-def test_elements_that_are_not_read(capsys):
+def test_unread_elements(capsys):
     text = PLY.format(more="", values="").replace(
         "end_header\n",
         "element thing 1\nproperty float size\nelement none 0\nproperty float x\nend_header\n",
@@ -143,7 +143,7 @@ def test_elements_that_are_not_read(capsys):
     assert told("a.ply", capsys) == ["properties that PyMeshLab does not read: size (thing, float)"]
 
 
-def test_a_text_that_ends_early(capsys):
+def test_text_file_that_ends_early(capsys):
     corners = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
     face = f"facet normal 0 0 1\nouter loop\n{corners}endloop\nendfacet\n"
     Path("a.stl").write_text(f"solid a\n{face}endsolid a\n")
@@ -155,7 +155,7 @@ def test_a_text_that_ends_early(capsys):
 
 
 @pytest.mark.parametrize(("step", "lost"), [(0.125, True), (8, False)])
-def test_a_text_far_from_the_origin(step, lost, capsys):
+def test_text_file_far_from_the_origin(step, lost, capsys):
     corners = [(0, 0), (step, 0), (step, step), (0, step)]
     points = [f"vertex {4500000.125 + x} {5400000.125 + y} 7.5\n" for x, y in corners]
     faces = [(0, 1, 2), (0, 2, 3)]
@@ -198,7 +198,7 @@ def test_ordinary_files_give_no_note(capsys):
     assert capsys.readouterr().err == ""
 
 
-def test_commands_tell_it_once():
+def test_commands_print_a_note_once():
     Path("a.off").write_bytes(as_off())
     note = "Note: a.off: vertices with NaN or infinite coordinates, left out with their faces: 2\n"
     for result in (call("measure", "a.off", "a.off"), call("flip", "a.off", "out.ply")):
@@ -213,18 +213,18 @@ OBJ = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\n"
     ("more", "lost"),
     [("f 1 2 9\n", 1), ("f 7 8 9\nf 1//5 3//5 6//5\nf 1 3 4\n", 2)],
 )
-def test_faces_of_a_text_whose_vertices_are_not_there(more, lost, capsys):
+def test_faces_with_missing_vertices(more, lost, capsys):
     Path("a.obj").write_text(OBJ + more)
     assert told("a.obj", capsys) == [f"faces with vertices that do not exist, left out: {lost}"]
 
 
 @pytest.mark.parametrize("more", ["f 1 3 4\n", "f 1 2 3 4\n", "vn 0 0 1\nf 1//1 3//1 4//1\n"])
-def test_of_whole_faces_none_is_missed(more, capsys):
+def test_complete_faces_give_no_note(more, capsys):
     Path("a.obj").write_text(OBJ + more)
     assert told("a.obj", capsys) == []
 
 
-def test_other_images_of_materials(capsys):
+def test_unread_images_of_materials(capsys):
     path = square_with_textures(".", "red.png")
     Path("red.png").write_bytes(ONE_PIXEL)
     materials = next(Path().glob("*.mtl"))
@@ -234,6 +234,6 @@ def test_other_images_of_materials(capsys):
     assert told(path, capsys) == [f"images of materials that PyMeshLab does not read: {names}"]
 
 
-def test_a_texture_without_a_name(capsys):
+def test_texture_without_a_name(capsys):
     path = square_with_textures(".", "")
     assert told(path, capsys) == ["textures without a name, which became dummy.png"]

@@ -68,7 +68,7 @@ def test_help_shows_examples(name, flag):
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_the_examples_are_commands_that_there_are(name):
+def test_examples_are_valid_commands(name):
     for line in examples(run(name, "--help").stdout):
         words = shlex.split(line.partition(">")[0])[2:]
         if "--help" not in words:
@@ -105,14 +105,14 @@ def test_version():
         (["demo", "surplus"], "unexpected extra argument"),
     ],
 )
-def test_wrong_use_is_exit_code_2(arguments, reason):
+def test_wrong_usage_is_exit_code_2(arguments, reason):
     result = run(*arguments)
     assert result.exit_code == 2
     assert reason in result.stderr
     assert result.stdout == ""
 
 
-def test_a_file_in_the_folders_place_is_one_line(tmp_path):
+def test_demo_into_a_file_is_an_error(tmp_path):
     path = tmp_path / "taken"
     path.write_text("mine")
     result = run("demo", "--output", str(path))
@@ -130,14 +130,14 @@ def test_a_file_in_the_folders_place_is_one_line(tmp_path):
         (OSError(28, "No space left on device"), "Error: [Errno 28] No space left on device\n"),
     ],
 )
-def test_errors_are_one_line_and_exit_code_1(monkeypatch, error, line):
+def test_errors_are_one_line_with_exit_code_1(monkeypatch, error, line):
     fail_with(monkeypatch, error)
     result = run("demo")
     assert (result.exit_code, result.stderr, result.stdout) == (1, line, "")
 
 
 @pytest.mark.parametrize("arguments", [["--debug", "demo"], ["demo", "--debug"]])
-def test_debug_lets_the_error_through(monkeypatch, arguments):
+def test_debug_raises_the_error(monkeypatch, arguments):
     error = ValueError("why")
     fail_with(monkeypatch, error)
     assert run(*arguments).exception is error
@@ -151,7 +151,7 @@ def test_ctrl_c_ends_without_a_traceback(monkeypatch, error):
     assert result.stderr.strip() == "Aborted!"
 
 
-def test_a_reader_that_leaves_is_no_error_to_talk_about(monkeypatch):
+def test_broken_pipe_prints_nothing(monkeypatch):
     fail_with(monkeypatch, BrokenPipeError(errno.EPIPE, "Broken pipe"))
     result = run("demo")
     assert (result.exit_code, result.stderr) == (1, "")
@@ -171,7 +171,7 @@ def test_help_imports_nothing_heavy():
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="for Linux only")
 @pytest.mark.parametrize("locale", ["C", "POSIX"])
-def test_in_the_locale_of_batch_systems_names_have_all_letters(tmp_path, locale):
+def test_file_names_in_the_c_locale(tmp_path, locale):
     name = str(tmp_path / "ü日.off")
     Path(name).write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
     done = subprocess.run(
@@ -187,7 +187,7 @@ def test_in_the_locale_of_batch_systems_names_have_all_letters(tmp_path, locale)
 
 @pytest.mark.heavy
 @pytest.mark.slow
-def test_whole_demo_in_a_process_of_its_own(tmp_path):
+def test_demo_in_a_subprocess(tmp_path):
     pytest.importorskip("matplotlib")
     folder = tmp_path / "pictures"
     done = subprocess.run(
@@ -215,7 +215,7 @@ def test_whole_demo_in_a_process_of_its_own(tmp_path):
     assert stages == {"cube", "torus", "scan", "face", "picture"}
 
 
-def test_output_is_a_folder_here_by_default(monkeypatch, tmp_path):
+def test_default_output_of_demo(monkeypatch, tmp_path):
     from meshlab_willmore.demo.story import Story
 
     folders = []
@@ -228,7 +228,7 @@ def test_output_is_a_folder_here_by_default(monkeypatch, tmp_path):
 
 
 @pytest.mark.parametrize("arguments", [["--nope"], ["nope"], ["demo", "--nope"]])
-def test_wrong_use_is_one_line(arguments):
+def test_wrong_usage_is_one_line(arguments):
     result = run(*arguments)
     assert result.exit_code == 2
     assert result.stderr.startswith("Error: ")
@@ -236,13 +236,13 @@ def test_wrong_use_is_one_line(arguments):
     assert "--help)" in result.stderr
 
 
-def test_without_a_command_there_is_help():
+def test_help_without_a_command():
     result = run()
     assert result.exit_code == 2
     assert "Commands:" in result.output
 
 
-def test_what_is_missing_leads_to_the_doctor(monkeypatch):
+def test_missing_library_points_to_doctor(monkeypatch):
     fail_with(monkeypatch, ImportError("libGL.so.1: cannot open shared object file"))
     result = run("demo")
     assert result.exit_code == 1
@@ -253,7 +253,7 @@ def test_what_is_missing_leads_to_the_doctor(monkeypatch):
     )
 
 
-def test_as_a_module():
+def test_runs_as_a_module():
     done = subprocess.run(
         [sys.executable, "-m", "meshlab_willmore", "--version"],
         capture_output=True,

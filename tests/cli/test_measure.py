@@ -12,7 +12,7 @@ from tests import meshes
 from .conftest import SAMPLES, call, cube_file, spawn
 
 
-def test_table_is_laid_out_exactly():
+def test_table_layout():
     cube_file()
     result = call("measure", "cube.ply", SAMPLES / "bone.ply")
     assert (result.exit_code, result.stderr) == (0, "")
@@ -27,7 +27,7 @@ def test_table_is_laid_out_exactly():
 
 
 @pytest.mark.slow
-def test_json_is_all_there_is_on_the_output():
+def test_json_is_the_whole_output():
     cube_file()
     done = spawn("measure", "cube.ply", "--json")
     assert (done.returncode, done.stderr) == (0, "")
@@ -36,7 +36,7 @@ def test_json_is_all_there_is_on_the_output():
     assert row == {"file": "cube.ply", "vertices": 14, "faces": 24, **totals}
 
 
-def test_a_file_that_cannot_be_measured_does_not_stop_the_others():
+def test_file_that_cannot_be_measured_does_not_stop_the_others():
     cube_file()
     Path("bad.ply").write_text("no mesh")
     Path("points.xyz").write_text("0 0 0\n1 0 0\n0 1 0\n")
@@ -49,13 +49,13 @@ def test_a_file_that_cannot_be_measured_does_not_stop_the_others():
     assert second.startswith("Error: points.xyz: The current mesh has no faces")
 
 
-def test_what_is_no_number_is_null_in_json():
+def test_infinite_numbers_are_null_in_json():
     row = {"file": "a", "faces": 1, "area": float("inf"), "W": float("nan"), "K": 1.5}
     shown = {"file": "a", "faces": 1, "area": None, "W": None, "K": 1.5}
     assert for_json(row) == shown
 
 
-def test_what_is_absent_does_not_stop_the_others():
+def test_missing_file_does_not_stop_the_others():
     cube_file()
     Path("empty.ply").touch()
     result = call("measure", "cube.ply", "*.ply", "no.ply", "*.off", "--json")
@@ -70,7 +70,7 @@ def test_what_is_absent_does_not_stop_the_others():
 
 
 @pytest.mark.parametrize(("size", "area"), [("1e200", "inf"), ("1e60", "2.36603e+120")])
-def test_totals_that_are_huge_or_infinite_fit_into_the_table(size, area):
+def test_huge_and_infinite_totals_fit_into_the_table(size, area):
     points = f"0 0 0\n{size} 0 0\n0 {size} 0\n0 0 {size}\n"
     Path("big.off").write_text(f"OFF\n4 4 0\n{points}3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n")
     result = call("measure", "big.off")
@@ -86,7 +86,7 @@ def test_totals_that_are_huge_or_infinite_fit_into_the_table(size, area):
         (["no.ply", "*.off"], "there is no file no.ply; no"),
     ],
 )
-def test_wrong_use(arguments, line):
+def test_wrong_usage(arguments, line):
     result = call("measure", *arguments)
     assert (result.exit_code, result.stdout) == (2, "")
     assert result.stderr.startswith(f"Error: {line}")

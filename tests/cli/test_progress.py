@@ -3,16 +3,18 @@
 import contextlib
 import errno
 import io
+import os
+import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-from meshlab_willmore.cli import progress
+from meshlab_willmore.cli import main, progress
 from meshlab_willmore.cli.progress import Status, shown
 from meshlab_willmore.mesh import jit, kernel_cache
 
-from .conftest import Terminal
+from .conftest import FLIP, TAUBIN, Terminal, call, script_file
 
 LONG = "/a/very/long/path/that/nobody/would/ever/want/to/read/in/full/of/the/scan_0017.ply"
 WIDE = "\u9762" * 40
@@ -40,7 +42,7 @@ def columns(text):
     return sum(2 if letter == "\u9762" else 1 for letter in text)
 
 
-def test_what_is_done_and_since_when():
+def test_line_and_sentence():
     clock = Clock()
     status = Status("scan.ply", 4, clock)
     status.next("reading")
@@ -55,7 +57,7 @@ def test_what_is_done_and_since_when():
     assert status.line(80) == "scan.ply  [####------------]  25%  saving, 0 s"
 
 
-def test_where_there_is_little_room_the_news_goes_first():
+def test_details_are_cut_last():
     status = Status("scan.ply", 8)
     status.begin("meshing_edge_flip_by_willmore_optimization")
     status.detail("round 7, 52 flips")
@@ -75,17 +77,17 @@ def test_the_line_never_wraps(width, total, name):
     assert columns(status.line(width)) < max(width, 1)
 
 
-def test_of_a_long_path_the_end_is_shown():
+def test_long_path_shows_its_end():
     assert Status(LONG, 2).line(80).startswith("...ll/of/the/scan_0017.ply  [")
 
 
-def test_letters_that_would_move_the_cursor_are_not_drawn():
+def test_control_characters_are_replaced():
     status = Status("a\nb\x1b[2J.ply")
     status.begin("reading")
     assert status.line(80) == "a?b?[2J.ply  reading, 0 s"
 
 
-def test_the_line_is_gone_when_something_is_printed_and_in_the_end(monkeypatch):
+def test_line_is_removed_before_other_output_and_in_the_end(monkeypatch):
     with terminal(monkeypatch) as stream:
         with shown("it", 1) as status:
             status.next("working")
@@ -99,7 +101,7 @@ def test_the_line_is_gone_when_something_is_printed_and_in_the_end(monkeypatch):
     assert after.endswith(" \r")
 
 
-def test_the_standard_output_stands_above_the_line(monkeypatch, capsys):
+def test_standard_output_is_printed_above_the_line(monkeypatch, capsys):
     with terminal(monkeypatch) as stream, shown("it", 1) as status:
         status.next("working")
         print("result")
@@ -108,14 +110,14 @@ def test_the_standard_output_stands_above_the_line(monkeypatch, capsys):
     assert stream.getvalue().count("it  [") == 3
 
 
-def test_a_log_hears_nothing_of_what_is_quick(capsys):
+def test_quick_work_prints_nothing_in_a_log(capsys):
     with shown("it", 1) as status:
         status.next("working")
         status.detail("much")
     assert capsys.readouterr() == ("", "")
 
 
-def test_a_log_gets_whole_lines_of_what_takes_long(monkeypatch):
+def test_long_work_prints_lines_in_a_log(monkeypatch):
     actions = []
     repeated = progress._repeated
 
@@ -133,7 +135,7 @@ def test_a_log_gets_whole_lines_of_what_takes_long(monkeypatch):
     assert stream.getvalue() == "it: working (1 of 2), 0 s so far\n"
 
 
-def test_it_goes_on_while_the_streams_are_turned_away(tmp_path, monkeypatch):
+def test_progress_is_shown_while_streams_are_redirected(tmp_path, monkeypatch):
     """Native filters are muted by way of the descriptors."""
     from meshlab_willmore.meshset.native import muted
 
@@ -156,7 +158,7 @@ def home(monkeypatch, tmp_path):
     return tmp_path
 
 
-def test_a_full_cache_is_told_of_once(monkeypatch, capsys, home):
+def test_full_cache_is_noted_once(monkeypatch, capsys, home):
     monkeypatch.setattr(jit, "cache_folder", lambda: "/the/cache")
     monkeypatch.setattr(kernel_cache, "write_errors", [OSError(errno.ENOSPC, "full")])
     progress._note_lost_kernels(True)
@@ -166,7 +168,7 @@ def test_a_full_cache_is_told_of_once(monkeypatch, capsys, home):
     assert capsys.readouterr().err == f"Note: {text}; mend it with: {cure}\n"
 
 
-def test_no_folder_is_told_of_where_something_was_compiled(monkeypatch, capsys, home):
+def test_missing_cache_folder_is_noted_after_compiling(monkeypatch, capsys, home):
     monkeypatch.setattr(jit, "cache_folder", lambda: None)
     progress._note_lost_kernels(False)
     assert capsys.readouterr().err == ""
@@ -174,3 +176,46 @@ def test_no_folder_is_told_of_where_something_was_compiled(monkeypatch, capsys, 
     line = capsys.readouterr().err
     assert line.startswith("Note: there is no folder to keep compiled kernels in, so each run")
     assert line.count("\n") == 1
+
+
+# In commands
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a terminal of POSIX")
+@pytest.mark.slow
+def test_progress_bar_on_a_terminal(script, cube):
+    try:
+        reader, terminal = os.openpty()
+    except OSError as error:
+        pytest.skip(f"there are no pseudo-terminals here: {error}")
+    with os.fdopen(terminal, "w") as stderr:
+        done = subprocess.run(
+            [sys.executable, "-m", "meshlab_willmore", "run", script, "-i", cube],
+            stdout=subprocess.PIPE,
+            stderr=stderr,
+            text=True,
+            check=True,
+        )
+    shown = os.read(reader, 65536).decode()
+    os.close(reader)
+    assert shown.count("cube.ply  [") > 2
+    assert "apply_coord_taubin_smoothing" in shown
+    assert "100%" in shown
+    assert "%" not in done.stdout
+
+
+def test_no_progress_bar_in_a_pipe(script, cube):
+    result = call("run", script, "-i", cube)
+    assert "\r" not in result.output
+    assert "[#" not in result.output
+
+
+@pytest.mark.parametrize("step", [FLIP, TAUBIN])
+def test_compiling_is_shown_only_when_something_is_compiled(monkeypatch, cube, step):
+    arguments = ["run", str(script_file(step)), "-i", "cube.ply"]
+    main(arguments, standalone_mode=False)
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    main(arguments, standalone_mode=False)
+    shown = sys.stderr.getvalue()
+    assert "cube.ply  [" in shown
+    assert "ompil" not in shown

@@ -1,9 +1,6 @@
 """`run`: scripts on files, one after the other, and what is said about it."""
 
-import os
 import re
-import shlex
-import subprocess
 import sys
 from pathlib import Path
 
@@ -11,14 +8,12 @@ import numpy as np
 import pymeshlab
 import pytest
 
-from meshlab_willmore.cli import main, text
 from meshlab_willmore.cli import run as run_module
 
 from .conftest import (
     FLIP,
     SAMPLES,
     TAUBIN,
-    Terminal,
     call,
     cube_file,
     listing,
@@ -45,17 +40,7 @@ def expected(path, source="cube.ply"):
     return path
 
 
-@pytest.fixture
-def script():
-    return script_file(FLIP, TAUBIN)
-
-
-@pytest.fixture
-def cube():
-    return cube_file()
-
-
-def test_output_is_what_the_same_calls_in_python_make(script, cube):
+def test_output_is_that_of_the_same_calls_in_python(script, cube):
     result = call("run", script, "-i", cube, "-o", "out.ply")
     assert (result.exit_code, result.stderr) == (0, "")
     assert re.fullmatch(
@@ -67,7 +52,7 @@ def test_output_is_what_the_same_calls_in_python_make(script, cube):
 
 
 @pytest.mark.slow
-def test_in_a_process_of_its_own_it_prints_the_result_and_nothing_else(script, cube):
+def test_subprocess_prints_only_the_result(script, cube):
     done = spawn("run", script, "-i", cube, "-o", "out.ply")
     assert (done.returncode, done.stderr) == (0, "")
     assert re.fullmatch(r"cube\.ply -> out\.ply \(.*\): 2 steps, .* s\n" + FLIPPED, done.stdout)
@@ -83,19 +68,19 @@ def test_in_a_process_of_its_own_it_prints_the_result_and_nothing_else(script, c
         ["--output", "out.ply", "--input", "cube.ply", "--script", "script.mlx"],
     ],
 )
-def test_options_in_any_order_as_meshlabserver_took_them(script, cube, arguments):
+def test_options_in_any_order(script, cube, arguments):
     assert call("run", *arguments).exit_code == 0
     assert same_mesh("out.ply", expected("expected.ply"))
 
 
 @pytest.mark.parametrize("name", ["UPPER.MLX", "Mixed.Mlx"])
-def test_a_script_is_known_by_its_ending_in_any_case(script, cube, name):
+def test_script_ending_in_any_case(script, cube, name):
     Path(name).write_bytes(script.read_bytes())
     assert call("run", "-i", cube, name, "-o", "out.ply").exit_code == 0
     assert same_mesh("out.ply", expected("expected.ply"))
 
 
-def test_a_script_on_the_standard_input(script, cube):
+def test_script_on_the_standard_input(script, cube):
     text = script.read_text()
     for order in (["-", "-i", cube], ["-i", cube, "-"], ["-s", "-", "-i", cube]):
         result = call("run", *order, "-o", "out.ply", "--force", input=text)
@@ -108,7 +93,7 @@ def test_a_script_on_the_standard_input(script, cube):
 
 @pytest.mark.skipif(sys.platform == "win32", reason="pipes of POSIX")
 @pytest.mark.parametrize("before", [[], ["-s"], ["-i", "cube.ply"]])
-def test_a_script_from_a_pipe(script, cube, before):
+def test_script_from_a_pipe(script, cube, before):
     with piped(script.read_bytes()) as name:
         arguments = [*before, name, "-i", cube] if before[:1] != ["-i"] else [*before, name]
         assert call("run", *arguments, "-o", "out.ply").exit_code == 0
@@ -130,7 +115,7 @@ def test_several_inputs_have_an_output_each(script, cube):
     ]
 
 
-def test_an_input_that_fails_does_not_stop_the_others(script, cube):
+def test_failed_input_does_not_stop_the_others(script, cube):
     Path("bad.ply").write_text("no mesh")
     cube_file("last.ply")
     arguments = ["run", script, "-i", cube, "bad.ply", "last.ply", "-o", "{name}.stl"]
@@ -144,7 +129,7 @@ def test_an_input_that_fails_does_not_stop_the_others(script, cube):
     assert Path("last.stl").exists()
 
 
-def test_stop_ends_with_the_first_that_fails(script, cube):
+def test_stop_at_the_first_failure(script, cube):
     Path("bad.ply").write_text("no mesh")
     result = call("run", script, "-i", "bad.ply", cube, "-o", "{name}.stl", "--stop")
     assert (result.exit_code, result.stdout) == (1, "")
@@ -173,7 +158,7 @@ def test_more_outputs_than_layers(script, cube):
 # Scripts without input, without output, without mesh
 
 
-def test_a_script_that_makes_its_own_mesh_needs_no_input():
+def test_script_that_creates_a_mesh_needs_no_input():
     script = script_file(("Tetrahedron", {}), FLIP)
     result = call("run", script, "-o", "own.ply")
     assert result.exit_code == 0
@@ -181,14 +166,14 @@ def test_a_script_that_makes_its_own_mesh_needs_no_input():
     assert len(loaded("own.ply").faces) == 4
 
 
-def test_a_script_that_needs_a_mesh_is_refused_without_one(script):
+def test_script_that_needs_a_mesh_is_refused_without_input(script):
     result = call("run", script, "-o", "own.ply")
     assert result.exit_code == 1
     assert result.stderr.startswith("Error: script.mlx: step 1 (Willmore flipping optimization): ")
     assert listing() == ["script.mlx"]
 
 
-def test_without_output_the_script_runs_and_nothing_is_saved(script, cube):
+def test_script_runs_without_output(script, cube):
     result = call("run", script, "-i", cube)
     assert result.exit_code == 0
     assert result.stdout.startswith("cube.ply -> not saved (no -o): 2 steps")
@@ -274,7 +259,7 @@ def no_step(monkeypatch):
         (["script.mlx", "--set", "1.maxflips"], "--set 1.maxflips: it must be STEP.PARAM=VALUE"),
     ],
 )
-def test_wrong_use_is_one_line_before_anything_runs(monkeypatch, script, cube, arguments, line):
+def test_wrong_usage_is_one_line_before_anything_runs(monkeypatch, script, cube, arguments, line):
     no_step(monkeypatch)
     cube_file("two.ply")
     Path("empty.ply").touch()
@@ -287,7 +272,7 @@ def test_wrong_use_is_one_line_before_anything_runs(monkeypatch, script, cube, a
     assert (result.stdout, listing()) == ("", before)
 
 
-def test_every_fault_of_the_script_has_a_line(monkeypatch, cube):
+def test_every_error_of_the_script_has_a_line(monkeypatch, cube):
     no_step(monkeypatch)
     script = script_file(("Taubin Smoth", {}), (FLIP[0], {"mxflips": ("RichInt", 1)}))
     result = call("run", script, "-i", cube, "-o", "out.ply")
@@ -299,21 +284,21 @@ def test_every_fault_of_the_script_has_a_line(monkeypatch, cube):
     assert listing() == ["cube.ply", "script.mlx"]
 
 
-def test_a_faulty_script_is_named_before_a_broken_input():
+def test_errors_of_the_script_come_before_those_of_inputs():
     Path("bad.ply").write_text("no mesh")
     result = call("run", script_file(("Taubin Smoth", {})), "-i", "bad.ply")
     assert result.exit_code == 1
     assert result.stderr.startswith("Error: script.mlx: step 1 (Taubin Smoth): ")
 
 
-def test_an_input_without_a_mesh_is_one_line(script):
+def test_input_without_a_mesh(script):
     Path("none.ply").write_text("ply\nformat ascii 1.0\nelement vertex 0\nend_header\n")
     result = call("run", script, "-i", "none.ply", "-o", "out.ply")
     assert result.exit_code == 1
     assert re.fullmatch(r"Error: cannot read none\.ply: .+\n", result.stderr)
 
 
-def test_an_unknown_input_format_is_named(script):
+def test_unknown_input_format(script):
     Path("a.xyzzy").write_text("hello")
     result = call("run", script, "-i", "a.xyzzy", "-o", "out.ply")
     assert result.exit_code == 1
@@ -323,7 +308,7 @@ def test_an_unknown_input_format_is_named(script):
 # Dry runs, logs, settings
 
 
-def test_a_dry_run_checks_all_and_writes_nothing(monkeypatch, script, cube):
+def test_dry_run_checks_everything_and_writes_nothing(monkeypatch, script, cube):
     no_step(monkeypatch)
     result = call("run", script, "-i", cube, "-o", "out.ply", "--log", "log.txt", "--dry-run")
     assert result.exit_code == 0
@@ -333,7 +318,7 @@ def test_a_dry_run_checks_all_and_writes_nothing(monkeypatch, script, cube):
     assert call("run", script, "-i", "bad.ply", "--dry-run").exit_code == 1
 
 
-def test_the_log_has_parameters_times_and_what_came_back(cube):
+def test_log_has_parameters_times_and_results(cube):
     script = script_file((FLIP[0], {"energy": ("RichEnum", '1" enum_cardinality="2')}), TAUBIN)
     before = "2020-02-20 20:20:20 run older.mlx"
     Path("log.txt").write_text(before + "\n")
@@ -358,7 +343,7 @@ def test_the_log_has_parameters_times_and_what_came_back(cube):
     assert len(lines) == 12
 
 
-def test_the_log_is_there_when_a_step_fails(cube):
+def test_log_of_a_failed_step(cube):
     Path("points.xyz").write_text("0 0 0\n1 0 0\n0 1 0\n")
     script = script_file(("Select All", {}), FLIP)
     result = call("run", script, "-i", "points.xyz", "-o", "out.ply", "--log", "log.txt")
@@ -373,14 +358,14 @@ def test_the_log_is_there_when_a_step_fails(cube):
     assert not Path("out.ply").exists()
 
 
-def test_a_log_on_the_terminal(script, cube):
+def test_log_on_the_terminal(script, cube):
     result = call("run", script, "-i", cube, "-l", "-")
     assert "step 2 of 2: apply_coord_taubin_smoothing (Taubin Smooth)\n" in result.stdout
     assert "\ncube.ply -> not saved" in result.stdout
     assert result.stdout.splitlines()[-1].startswith("done, ")
 
 
-def test_what_an_old_step_does_otherwise_today_is_told(cube):
+def test_changed_behaviour_of_an_old_step_is_a_warning(cube):
     script = script_file(("Box", {}), ("Convex Hull", {"reorient": ("RichBool", "true")}))
     result = call("run", script, "-i", cube, "--dry-run")
     assert (result.exit_code, result.stderr) == (
@@ -407,36 +392,7 @@ def test_native_filters_print_nothing_into_the_output(cube):
     assert len(done.stdout.splitlines()) == 1
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="needs a terminal of POSIX")
-@pytest.mark.slow
-def test_a_progress_bar_on_a_terminal(script, cube):
-    try:
-        reader, terminal = os.openpty()
-    except OSError as error:
-        pytest.skip(f"there are no pseudo-terminals here: {error}")
-    with os.fdopen(terminal, "w") as stderr:
-        done = subprocess.run(
-            [sys.executable, "-m", "meshlab_willmore", "run", script, "-i", cube],
-            stdout=subprocess.PIPE,
-            stderr=stderr,
-            text=True,
-            check=True,
-        )
-    shown = os.read(reader, 65536).decode()
-    os.close(reader)
-    assert shown.count("cube.ply  [") > 2
-    assert "apply_coord_taubin_smoothing" in shown
-    assert "100%" in shown
-    assert "%" not in done.stdout
-
-
-def test_no_progress_bar_in_a_pipe(script, cube):
-    result = call("run", script, "-i", cube)
-    assert "\r" not in result.output
-    assert "[#" not in result.output
-
-
-def test_each_mask_is_for_the_output_before_it():
+def test_mask_belongs_to_the_output_before_it():
     cube_file("other.ply")
     script = script_file(TAUBIN)
     outputs = ["-m", "vn", "-o", "a.ply", "-m", "vc", "-o", "b.ply", "-o", "c.ply", "--mask=vq"]
@@ -449,74 +405,3 @@ def test_each_mask_is_for_the_output_before_it():
         return {part for word, part in parts.items() if word in words}
 
     assert [saved(f"{name}.ply") for name in "abc"] == [{"vn", "vc"}, {"vn"}, {"vn", "vq"}]
-
-
-def test_what_steps_return_is_told_in_short(cube):
-    script = script_file(
-        ("Select All", {}), ("Willmore measures", {}), ("Compute Geometric Measures", {})
-    )
-    first, ours, native = call("run", script, "-i", cube).stdout.splitlines()
-    assert first.startswith("cube.ply -> not saved (no -o): 3 steps, ")
-    assert ours.startswith("  step 2, get_willmore_measures: area 6.22709, ")
-    assert "willmore_energy 45.757" in ours
-    assert native.startswith("  step 3, get_geometric_measures: ")
-    assert "surface_area 6.22709" in native
-    assert "bbox [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]], " in native
-
-
-def test_long_values_are_cut():
-    assert text._short(2 / 3) == "0.666667"
-    assert text._short(np.array([[1 / 3, 1e-9], [1e300, np.inf]])) == (
-        "[[0.333333, 1e-09], [1e+300, inf]]"
-    )
-    assert text._short(np.arange(3)) == "[0, 1, 2]"
-    assert text._short(np.zeros(1000)) == str([0.0] * 1000)[:60] + "..."
-
-
-@pytest.mark.parametrize("step", [FLIP, TAUBIN])
-def test_a_terminal_hears_of_compiling_only_while_something_is(monkeypatch, cube, step):
-    arguments = ["run", str(script_file(step)), "-i", "cube.ply"]
-    main(arguments, standalone_mode=False)
-    monkeypatch.setattr(sys, "stderr", Terminal())
-    main(arguments, standalone_mode=False)
-    shown = sys.stderr.getvalue()
-    assert "cube.ply  [" in shown
-    assert "ompil" not in shown
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="a shell of POSIX")
-@pytest.mark.parametrize("closed", [">&-", "2>&-", "<&- >&- 2>&-"])
-@pytest.mark.slow
-def test_closed_streams_are_no_matter(script, cube, closed):
-    # The log would get the free descriptor.
-    orders = f"run {script} -i {cube} -o out.ply --log log.txt"
-    command = f"{shlex.quote(sys.executable)} -m meshlab_willmore {orders} {closed}"
-    done = subprocess.run(
-        ["/bin/sh", "-c", command], capture_output=True, text=True, check=False, timeout=100
-    )
-    assert (done.returncode, done.stderr) == (0, "")
-    assert same_mesh("out.ply", expected("expected.ply"))
-    lines = Path("log.txt").read_text().splitlines()
-    assert len(lines) == 11
-    assert lines[-1].startswith("done, ")
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="a shell of POSIX")
-@pytest.mark.slow
-def test_a_log_on_a_closed_output_goes_nowhere(script, cube):
-    command = f"{shlex.quote(sys.executable)} -m meshlab_willmore run {script} -i {cube} -l - >&-"
-    done = subprocess.run(
-        ["/bin/sh", "-c", command], capture_output=True, text=True, check=False, timeout=100
-    )
-    assert (done.returncode, done.stderr) == (0, "")
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="a shell of POSIX")
-def test_no_file_takes_the_place_of_a_closed_stream():
-    code = (
-        "import os, sys; from meshlab_willmore.cli import errors; errors.open_closed_streams(); "
-        "sys.exit(os.open('new', os.O_CREAT | os.O_WRONLY))"
-    )
-    command = f"{shlex.quote(sys.executable)} -c {shlex.quote(code)} <&- >&- 2>&-"
-    # The exit code is the new file's descriptor.
-    assert subprocess.run(["/bin/sh", "-c", command], check=False, timeout=100).returncode > 2

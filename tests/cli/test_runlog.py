@@ -51,7 +51,7 @@ def contents():
         ("mine.txt/log.txt", "cannot write the log mine.txt/log.txt: there is no folder mine.txt"),
     ],
 )
-def test_a_log_is_written_over_nothing(run, no_step, log, line, dry):
+def test_log_overwrites_nothing(run, no_step, log, line, dry):
     cube_file("other.ply")
     Path("mine.txt").write_text("2020-02-20: dear diary\n")
     Path("folder").mkdir()
@@ -65,7 +65,7 @@ def test_a_log_is_written_over_nothing(run, no_step, log, line, dry):
 
 @POSIX
 @pytest.mark.parametrize("link", [os.symlink, os.link])
-def test_a_link_to_an_input_is_that_input(run, no_step, link):
+def test_log_is_a_link_to_an_input(run, no_step, link):
     link("cube.ply", "log.txt")
     before = contents()
     result = call(*run, "--log", "log.txt")
@@ -74,7 +74,7 @@ def test_a_link_to_an_input_is_that_input(run, no_step, link):
     assert contents() == before
 
 
-def test_a_log_goes_on_and_may_begin_empty(run):
+def test_log_is_appended(run):
     Path("log.txt").touch()
     assert call(*run, "--log", "log.txt").exit_code == 0
     assert call(*run, "--log", "log.txt", "--force").exit_code == 0
@@ -84,7 +84,7 @@ def test_a_log_goes_on_and_may_begin_empty(run):
 
 
 @pytest.mark.parametrize("dry", [[], ["--dry-run"]])
-def test_a_folder_that_takes_no_file_is_found_before(run, no_step, monkeypatch, dry):
+def test_unwritable_folder_is_found_before_the_run(run, no_step, monkeypatch, dry):
     def refuse(**_given):
         raise PermissionError(13, "Permission denied")
 
@@ -96,7 +96,7 @@ def test_a_folder_that_takes_no_file_is_found_before(run, no_step, monkeypatch, 
     assert result.stderr == "Error: cannot write into closed: Permission denied\n"
 
 
-def test_a_full_disk_is_told_of_the_log(run):
+def test_full_disk(run):
     if not Path("/dev/full").exists():
         pytest.skip("needs /dev/full")
     result = call(*run, "--log", "/dev/full")
@@ -106,7 +106,7 @@ def test_a_full_disk_is_told_of_the_log(run):
 
 
 @POSIX
-def test_a_log_goes_into_a_pipe_if_somebody_reads(run):
+def test_log_into_a_pipe(run):
     os.mkfifo("pipe")
     result = call(*run, "--log", "pipe")
     assert result.exit_code == 1
@@ -119,7 +119,7 @@ def test_a_log_goes_into_a_pipe_if_somebody_reads(run):
 
 @POSIX
 @pytest.mark.parametrize("name", ["socket", "link.txt"])
-def test_a_socket_takes_no_log(run, no_step, name):
+def test_log_into_a_socket_is_refused(run, no_step, name):
     with socket.socket(socket.AF_UNIX) as made:
         made.bind("socket")
     Path("link.txt").symlink_to("socket")
@@ -130,7 +130,7 @@ def test_a_socket_takes_no_log(run, no_step, name):
 
 
 @POSIX
-def test_a_link_that_leads_nowhere_leads_to_the_log(run):
+def test_link_to_a_new_log(run):
     Path("folder").mkdir()
     Path("link.txt").symlink_to("folder/log.txt")
     assert call(*run, "--log", "link.txt").exit_code == 0

@@ -41,7 +41,7 @@ def textured_set():
 
 
 @pytest.mark.parametrize("ending", ["ply", "obj", "stl", "off", "dae", "x3d", "wrl", "dxf", "3ds"])
-def test_a_saved_mesh_is_what_pymeshlab_writes(ending, tmp_path):
+def test_saved_mesh_is_that_of_pymeshlab(ending, tmp_path):
     for folder in ("ours", "native"):
         (tmp_path / folder).mkdir()
     ours, native = tmp_path / "ours" / f"a.{ending}", tmp_path / "native" / f"a.{ending}"
@@ -55,7 +55,7 @@ def test_a_saved_mesh_is_what_pymeshlab_writes(ending, tmp_path):
 # Side files
 
 
-def test_material_and_texture_stand_beside_the_mesh(tmp_path):
+def test_material_and_texture_are_saved_beside_the_mesh(tmp_path):
     files = save(textured_set(), tmp_path / "a.obj", SaveOptions(origin=SAMPLES))
     assert sorted(file.name for file in files) == listing(tmp_path) == [IMAGE, "a.obj", "a.obj.mtl"]
     assert files[0].name == "a.obj"
@@ -67,14 +67,14 @@ def test_material_and_texture_stand_beside_the_mesh(tmp_path):
     assert list(ms.current_mesh().textures()) == [IMAGE]
 
 
-def test_a_texture_that_is_there_already_is_no_conflict(tmp_path):
+def test_same_texture_may_exist(tmp_path):
     save(textured_set(), tmp_path / "a.ply", SaveOptions(origin=SAMPLES))
     files = save(textured_set(), tmp_path / "b.ply", SaveOptions(origin=SAMPLES))
     assert tmp_path / "b.ply" in files
     assert listing(tmp_path) == [IMAGE, "a.ply", "b.ply"]
 
 
-def test_another_texture_of_that_name_is_kept_unless_forced(tmp_path):
+def test_different_texture_is_kept_unless_forced(tmp_path):
     other = tmp_path / IMAGE
     other.write_bytes(b"somebody's picture")
     with pytest.raises(
@@ -87,7 +87,7 @@ def test_another_texture_of_that_name_is_kept_unless_forced(tmp_path):
     assert other.read_bytes() == (SAMPLES / IMAGE).read_bytes()
 
 
-def test_a_changed_texture_is_written_anew(tmp_path):
+def test_changed_texture_is_written_again(tmp_path):
     changed = tmp_path / "in" / IMAGE
     changed.parent.mkdir()
     # The file beside the input shows something else by now.
@@ -99,7 +99,7 @@ def test_a_changed_texture_is_written_anew(tmp_path):
     assert (image.width(), image.height()) == (512, 512)
 
 
-def test_a_texture_in_a_folder_above_lands_there(tmp_path):
+def test_texture_in_a_parent_folder(tmp_path):
     source = tmp_path / "source" / "mesh"
     source.mkdir(parents=True)
     (tmp_path / "source" / "images").mkdir()
@@ -123,7 +123,7 @@ def test_a_texture_in_a_folder_above_lands_there(tmp_path):
     ("name", "wish"),
     [("a.stl", SaveOptions()), ("a.ply", SaveOptions(parts=("vn",)))],
 )
-def test_no_texture_where_the_file_does_not_speak_of_it(tmp_path, name, wish):
+def test_no_texture_without_coordinates(tmp_path, name, wish):
     save(textured_set(), tmp_path / name, wish)
     assert listing(tmp_path) == [name]
 
@@ -135,7 +135,7 @@ def header(path):
     return path.read_bytes().partition(b"end_header")[0].decode()
 
 
-def test_a_mask_lists_all_that_is_saved(tmp_path):
+def test_mask_lists_everything_that_is_saved(tmp_path):
     ms = textured_set()
     ms.compute_color_by_function_per_vertex()
     ms.compute_scalar_by_function_per_vertex(q="x")
@@ -150,7 +150,7 @@ def test_a_mask_lists_all_that_is_saved(tmp_path):
     assert "texcoord" not in text
 
 
-def test_a_part_that_the_format_has_no_place_for_is_named(tmp_path, capsys):
+def test_part_that_the_format_cannot_hold_is_named(tmp_path, capsys):
     save(cube_set(), tmp_path / "a.stl", SaveOptions(parts=("vc", "fc", "wt")))
     told = "Note: .stl files hold no vertex colours (vc) and no wedge texture coordinates (wt)\n"
     assert capsys.readouterr().err == told
@@ -171,7 +171,7 @@ main(sys.argv[1:], prog_name="meshlab-willmore")
 @pytest.mark.skipif(sys.platform == "win32", reason="needs limits of POSIX")
 @pytest.mark.parametrize("ending", ["ply", "obj", "xyz", "json", "dae"])
 @pytest.mark.slow
-def test_no_room_is_one_line_and_no_output(tmp_path, ending):
+def test_full_disk_is_one_line_and_no_output(tmp_path, ending):
     script = tmp_path / "s.mlx"
     script.write_text(
         '<!DOCTYPE FilterScript><FilterScript><filter name="Select None"/></FilterScript>'
@@ -192,7 +192,7 @@ def test_no_room_is_one_line_and_no_output(tmp_path, ending):
     assert path.read_text() == "older"
 
 
-def test_a_writer_that_stops_half_way_is_noticed():
+def test_incomplete_file_is_noticed():
     if not Path("/dev/full").exists():
         pytest.skip("needs /dev/full")
     with pytest.raises(OSError, match=r"cannot write a\.ply: No space left on device"):
@@ -206,14 +206,14 @@ def test_every_file_is_checked(tmp_path, monkeypatch):
     assert sorted(seen) == listing(tmp_path) == [IMAGE, "a.obj", "a.obj.mtl"]
 
 
-def test_checking_leaves_the_file_as_it_is(tmp_path):
+def test_check_does_not_change_the_file(tmp_path):
     path = tmp_path / "a.ply"
     path.write_bytes(b"all of it")
     saving._check_complete(path, path)
     assert path.read_bytes() == b"all of it"
 
 
-def test_a_format_of_which_nothing_is_written(tmp_path):
+def test_writer_that_writes_nothing(tmp_path):
     class Silent(pymeshlab.MeshSet):
         def save_current_mesh(self, *_arguments, **_named):
             pass
@@ -226,7 +226,7 @@ def test_a_format_of_which_nothing_is_written(tmp_path):
 
 
 @pytest.mark.parametrize("error", [KeyboardInterrupt(), RuntimeError("broken")])
-def test_after_an_error_nothing_is_left(tmp_path, monkeypatch, error):
+def test_error_leaves_no_files(tmp_path, monkeypatch, error):
     path = cube_file(tmp_path / "a.ply")
     before = path.read_bytes()
 
@@ -240,7 +240,7 @@ def test_after_an_error_nothing_is_left(tmp_path, monkeypatch, error):
     assert path.read_bytes() == before
 
 
-def test_if_the_mesh_cannot_be_renamed_its_new_side_files_go(tmp_path, monkeypatch):
+def test_failed_rename_removes_new_side_files(tmp_path, monkeypatch):
     replace = os.replace
 
     def fail_for_mesh(source, target):
@@ -254,7 +254,7 @@ def test_if_the_mesh_cannot_be_renamed_its_new_side_files_go(tmp_path, monkeypat
     assert listing(tmp_path) == []
 
 
-def test_an_older_file_is_replaced_only_when_forced(tmp_path):
+def test_existing_file_is_overwritten_only_when_forced(tmp_path):
     path = tmp_path / "a.ply"
     path.write_text("mine")
     with pytest.raises(OSError, match="already exists; use --force to overwrite"):
@@ -266,7 +266,7 @@ def test_an_older_file_is_replaced_only_when_forced(tmp_path):
 
 
 @POSIX
-def test_a_file_that_is_replaced_hands_on_its_mode(tmp_path):
+def test_overwritten_file_keeps_its_mode(tmp_path):
     path = tmp_path / "a.ply"
     path.touch()
     path.chmod(0o640)
@@ -276,7 +276,7 @@ def test_a_file_that_is_replaced_hands_on_its_mode(tmp_path):
 
 
 @POSIX
-def test_a_link_stays_and_leads_to_the_new_mesh(tmp_path):
+def test_link_stays_and_points_to_the_new_mesh(tmp_path):
     folder = tmp_path / "elsewhere"
     folder.mkdir()
     real = folder / "real.ply"
@@ -293,7 +293,7 @@ def test_a_link_stays_and_leads_to_the_new_mesh(tmp_path):
 
 
 @POSIX
-def test_a_link_that_leads_nowhere_is_there(tmp_path):
+def test_dangling_link_exists(tmp_path):
     link = tmp_path / "a.ply"
     link.symlink_to("real.ply")
     with pytest.raises(click.ClickException, match="already exists; use --force"):
@@ -307,7 +307,7 @@ def test_a_link_that_leads_nowhere_is_there(tmp_path):
 
 
 @POSIX
-def test_a_link_into_no_folder_is_found_before(tmp_path):
+def test_link_into_a_missing_folder(tmp_path):
     link = tmp_path / "a.ply"
     link.symlink_to("no/real.ply")
     with pytest.raises(click.ClickException, match=r"cannot write .*a\.ply: the folder .*no does"):
@@ -317,7 +317,7 @@ def test_a_link_into_no_folder_is_found_before(tmp_path):
 @POSIX
 @pytest.mark.parametrize("link", ["", "to-"])
 @pytest.mark.parametrize("kind", ["pipe.ply", "socket.ply", "folder.ply"])
-def test_what_is_no_file_is_never_replaced(kind, link):
+def test_only_files_are_replaced(kind, link):
     os.mkfifo("pipe.ply")
     with socket.socket(socket.AF_UNIX) as made:
         made.bind("socket.ply")
@@ -334,7 +334,7 @@ def test_what_is_no_file_is_never_replaced(kind, link):
 
 @POSIX
 @pytest.mark.parametrize("name", [IMAGE, "a.obj.mtl"])
-def test_a_file_beside_the_mesh_replaces_files_only(name):
+def test_side_files_replace_only_files(name):
     ms = textured_set()
     os.mkfifo("pipe")
     Path(name).symlink_to("pipe")
@@ -374,7 +374,7 @@ def test_custom_attributes_are_saved(tmp_path, capsys):
     assert not new & properties(tmp_path / "some.ply")
 
 
-def test_formats_without_custom_attributes_say_so(tmp_path, capsys):
+def test_formats_without_custom_attributes(tmp_path, capsys):
     save(with_attributes("a"), tmp_path / "a.stl", SaveOptions())
     assert capsys.readouterr().err == "Note: .stl files hold no custom attributes\n"
     save(cube_set(), tmp_path / "b.stl", SaveOptions())
@@ -382,7 +382,7 @@ def test_formats_without_custom_attributes_say_so(tmp_path, capsys):
 
 
 @pytest.mark.parametrize("name", ["a b", "a\nend_header", "", "a\nproperty float x"])
-def test_attributes_with_odd_names_spoil_nothing(tmp_path, capsys, name):
+def test_attributes_with_odd_names(tmp_path, capsys, name):
     path = tmp_path / "a.ply"
     save(with_attributes("good", name), path, SaveOptions())
     # What stands behind the end of the header can't be told from it.
@@ -392,21 +392,21 @@ def test_attributes_with_odd_names_spoil_nothing(tmp_path, capsys, name):
     assert capsys.readouterr().err == told
 
 
-def test_the_files_have_the_usual_permissions(tmp_path):
+def test_usual_permissions(tmp_path):
     save(cube_set(), tmp_path / "a.ply", SaveOptions())
     usual = tmp_path / "usual"
     usual.touch()
     assert (tmp_path / "a.ply").stat().st_mode == usual.stat().st_mode
 
 
-def test_long_and_foreign_names(tmp_path):
+def test_long_and_non_ascii_names(tmp_path):
     path = tmp_path / ("ü" * 100 + ".ply")
     save(cube_set(), path, SaveOptions())
     assert listing(tmp_path) == [path.name]
     assert same_mesh(path, cube_file(tmp_path / "b.ply"))
 
 
-def test_textures_compare_by_what_they_show(tmp_path):
+def test_textures_are_compared_by_pixels(tmp_path):
     ms = textured_set()
     (image,) = ms.current_mesh().textures().values()
     encoded_anew = tmp_path / "anew.png"

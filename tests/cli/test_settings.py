@@ -30,7 +30,7 @@ def changed(*written):
         " 1 . stepSmoothNum = 3",
     ],
 )
-def test_a_value_takes_the_place_of_the_scripts(written):
+def test_setting_replaces_the_value_of_the_script(written):
     steps = changed(written)
     details = (("tooltip", "Times"),)
     assert steps[0] == Step("Taubin Smooth", (Param("stepSmoothNum", "RichInt", 3, details),))
@@ -48,16 +48,16 @@ def test_a_value_takes_the_place_of_the_scripts(written):
         ("3.threshold=0.5", 2, Param("Threshold", "RichAbsPerc", 0.5)),
     ],
 )
-def test_a_parameter_that_the_script_has_not_got_is_added(written, step, param):
+def test_missing_parameter_is_added(written, step, param):
     assert changed(written)[step].params[-1] == param
 
 
-def test_the_last_of_several_holds():
+def test_last_setting_wins():
     (param,) = changed("1.stepSmoothNum=3", "1.stepSmoothNum=4")[0].params
     assert param.value == 4
 
 
-def test_unknown_filters_are_left_to_the_check():
+def test_unknown_filters_are_left_to_the_checker():
     assert changed("5.foo=1") == STEPS
 
 
@@ -81,7 +81,7 @@ def test_unknown_filters_are_left_to_the_check():
         ("2.monotone=perhaps", "--set 2.monotone=perhaps: 'perhaps' "),
     ],
 )
-def test_what_can_not_be_is_named(written, text):
+def test_wrong_settings_are_named(written, text):
     with pytest.raises(click.ClickException) as caught:
         changed(written)
     assert caught.value.exit_code == 2
@@ -90,7 +90,7 @@ def test_what_can_not_be_is_named(written, text):
     assert "\n" not in caught.value.message
 
 
-def test_old_names_can_be_set_and_todays_take_the_place_of_theirs():
+def test_old_names_of_parameters_can_be_set():
     old = Step("Transform: Rotate", (Param("ToAll", "RichBool", False),))
     today = Step("Transform: Rotate", (Param("allLayers", "RichBool", True),))
     for written in ("1.allLayers=true", "1.alllayers=true", "1.ToAll=true"):

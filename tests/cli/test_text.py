@@ -1,14 +1,16 @@
 """Tables fit into the window, whatever the names in them."""
 
+import numpy as np
 import pytest
 
+from meshlab_willmore.cli import text
 from meshlab_willmore.cli.text import fitted, in_columns, width
 
-from .conftest import call, cube_file
+from .conftest import call, cube_file, script_file
 
 
 @pytest.mark.parametrize("columns", ["80", "100", "132", "40"])
-def test_the_table_of_measures_fits(monkeypatch, tmp_path, columns):
+def test_table_fits_into_the_window(monkeypatch, tmp_path, columns):
     monkeypatch.setenv("COLUMNS", columns)
     folder = tmp_path / ("long" * 20) / "日本" / "deep"
     folder.mkdir(parents=True)
@@ -23,14 +25,36 @@ def test_the_table_of_measures_fits(monkeypatch, tmp_path, columns):
     assert table[4].startswith("a?b.ply ")
 
 
-def test_in_a_pipe_names_are_whole(monkeypatch, tmp_path):
+def test_names_are_whole_in_a_pipe(monkeypatch, tmp_path):
     monkeypatch.delenv("COLUMNS", raising=False)
     (tmp_path / ("long" * 30)).mkdir()
     name = cube_file(tmp_path / ("long" * 30) / "cube.ply")
     assert call("measure", name).stdout.splitlines()[2].startswith(f"{name} ")
 
 
-def test_columns_go_by_what_is_seen():
+def test_columns_are_aligned_by_visible_width():
     rows = [("日本", "1"), ("ab", "22"), ("e\u0301", "3")]
     assert in_columns(rows).splitlines() == ["日本   1", "ab    22", "e\u0301      3"]
     assert fitted(rows) == rows
+
+
+def test_results_of_steps(cube):
+    script = script_file(
+        ("Select All", {}), ("Willmore measures", {}), ("Compute Geometric Measures", {})
+    )
+    first, ours, native = call("run", script, "-i", cube).stdout.splitlines()
+    assert first.startswith("cube.ply -> not saved (no -o): 3 steps, ")
+    assert ours.startswith("  step 2, get_willmore_measures: area 6.22709, ")
+    assert "willmore_energy 45.757" in ours
+    assert native.startswith("  step 3, get_geometric_measures: ")
+    assert "surface_area 6.22709" in native
+    assert "bbox [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]], " in native
+
+
+def test_long_values_are_cut():
+    assert text._short(2 / 3) == "0.666667"
+    assert text._short(np.array([[1 / 3, 1e-9], [1e300, np.inf]])) == (
+        "[[0.333333, 1e-09], [1e+300, inf]]"
+    )
+    assert text._short(np.arange(3)) == "[0, 1, 2]"
+    assert text._short(np.zeros(1000)) == str([0.0] * 1000)[:60] + "..."

@@ -20,7 +20,7 @@ def ending(monkeypatch, compiled):
     monkeypatch.setattr(warmup, "warm_up", warm_up)
 
 
-def test_what_was_done_is_told_in_a_line(monkeypatch):
+def test_result_is_one_line(monkeypatch):
     for compiled, text in (
         (0, "everything was compiled already"),
         (1, "1 kernel compiled"),
@@ -32,14 +32,14 @@ def test_what_was_done_is_told_in_a_line(monkeypatch):
         assert result.stdout == f"{text}, in 2.0 s: {FOLDER}\n"
 
 
-def test_a_terminal_is_told_what_is_compiled(monkeypatch):
+def test_terminal_shows_what_is_compiled(monkeypatch):
     ending(monkeypatch, 1)
     monkeypatch.setattr(sys, "stderr", Terminal())
     main(["warmup"], standalone_mode=False)
     assert "one: compiled in 1.0 s\n" in sys.stderr.getvalue()
 
 
-def test_an_error_is_one_line(monkeypatch):
+def test_error_is_one_line(monkeypatch):
     monkeypatch.setattr(warmup, "cache_folder", lambda: None)
     monkeypatch.setattr(warmup.config, "DISABLE_JIT", 0)
     result = call("warmup")

@@ -176,7 +176,7 @@ def _layer(name: str, values: Sequence[str], outputs: Sequence[Output], ctx: cli
     if name == "--layer":
         _check_given(name, values, ctx)
         if not outputs:
-            raise WrongUse(f"--layer {values[0]} stands before every -o; put it behind one")
+            raise WrongUse(f"--layer {values[0]} comes before every -o; put it behind one")
         if not _LAYER.fullmatch(values[0]):
             raise WrongUse(f"--layer {values[0]}: it must be {LAYER_HELP}")
     if not values:

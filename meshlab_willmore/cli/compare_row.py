@@ -69,8 +69,8 @@ class Outcome(NamedTuple):
     trace: str = ""
 
 
-def run(comparison: Comparison, contender: Contender, say: Callable[[str], None]) -> Outcome:
-    """Compute one row; `say` is called with each phase that begins."""
+def run(comparison: Comparison, contender: Contender, notify: Callable[[str], None]) -> Outcome:
+    """Compute one row; `notify` is called with each phase that begins."""
     task = {**comparison._asdict(), "filter": contender.filter, "given": contender.given}
     phase = READING
     with _subprocess() as process:
@@ -78,7 +78,7 @@ def run(comparison: Comparison, contender: Contender, say: Callable[[str], None]
             if not isinstance(answer, str):
                 return Outcome(**answer)
             phase = answer
-            say(phase)
+            notify(phase)
         code = process.wait()
     if phase == RUNNING and code == _TOO_SLOW:
         return Outcome(timed_out=True)
@@ -136,11 +136,11 @@ def main() -> None:
     task = json.loads(sys.stdin.readline())
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
-    def say(answer: object) -> None:
+    def send(answer: object) -> None:
         print(json.dumps(answer), file=answers, flush=True)
 
     try:
-        outcome = _outcome(say=say, **task)
+        outcome = _outcome(send=send, **task)
     except Exception as error:
         fault = machine.fault_of(error)
         outcome = Outcome(
@@ -148,11 +148,11 @@ def main() -> None:
             of_machine=fault is not None,
             trace=traceback.format_exc(),
         )
-    say(outcome._asdict())
+    send(outcome._asdict())
 
 
 def _own_stream() -> IO[str]:
-    """A stream to the parent into which nobody else prints, as PyMeshLab's C++ code does."""
+    """A stream to the parent; the standard output, on which PyMeshLab prints, goes nowhere."""
     answers = os.fdopen(os.dup(1), "w")
     with open(os.devnull, "wb") as sink:
         os.dup2(sink.fileno(), 1)
@@ -171,7 +171,7 @@ def _outcome(
     timeout: float,
     filter: str,
     given: dict[str, Any],
-    say: Callable[[str], None],
+    send: Callable[[str], None],
 ) -> Outcome:
     from ..compare.contenders import warm_up
     from ..compare.figures import arrays, figures
@@ -183,14 +183,14 @@ def _outcome(
     surface = read_reference(reference) if reference else None
     seconds = None
     if filter:
-        say(WARMING)
+        send(WARMING)
         warm_up(filter, given)
-        say(RUNNING)
+        send(RUNNING)
         with _ended_after(timeout):
             start = time.perf_counter()
             ms.apply_filter(filter, **given)
             seconds = time.perf_counter() - start
-    say(MEASURING)
+    send(MEASURING)
     return Outcome(seconds, figures(ms, faces, surface)._asdict())
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import platform
 import re
 import shlex
 import shutil
@@ -30,7 +31,6 @@ Examples:
   meshlab-willmore doctor --json
 """
 
-OLDEST_PYTHON = (3, 10)
 LIBRARIES = ("pymeshlab", "numpy", "numba")
 # The packages with libGL.so.1 and libOpenGL.so.0, by the program that installs them.
 INSTALLERS = {
@@ -61,7 +61,7 @@ class Finding(NamedTuple):
 def command(as_json: bool) -> None:
     """Check what this package needs, and name the command that fixes what is wrong.
 
-    Checks Python and libraries, PyMeshLab's plugins and filters, Numba's variables, compiler and
+    Checks the installed packages, PyMeshLab's plugins and filters, Numba's variables, compiler and
     cache, and the folder for temporary files. Exit code 0 if all checks pass, else 1.
     """
     findings = []
@@ -90,24 +90,17 @@ def _line(finding: Finding) -> str:
 # --- checks ------------------------------------------------------------------------------------
 
 
-def python() -> Finding:
-    """Check that the interpreter is new enough."""
-    version = ".".join(map(str, sys.version_info[:3]))
-    if sys.version_info[:2] < OLDEST_PYTHON:
-        cure = f"install Python {'.'.join(map(str, OLDEST_PYTHON))} or later"
-        return Finding("Python", False, f"{version} is too old", cure)
-    return Finding("Python", True, f"{version} ({sys.executable})")
-
-
-def libraries() -> Finding:
+def packages() -> Finding:
     """Check that all libraries are installed."""
     versions = {name: _version(name) for name in LIBRARIES}
     absent = [name for name, version in versions.items() if not version]
     if absent:
         cure = f"{sys.executable} -m pip install {' '.join(absent)}"
         return Finding("packages", False, f"{', '.join(absent)} not installed", cure)
+    python = f"Python {platform.python_version()} ({sys.executable})"
     versions = {"meshlab_willmore": __version__, **versions}
-    return Finding("packages", True, ", ".join(f"{n} {v}" for n, v in versions.items()))
+    installed = ", ".join(f"{name} {version}" for name, version in versions.items())
+    return Finding("packages", True, f"{installed}, {python}")
 
 
 def _version(name: str) -> str:
@@ -253,15 +246,15 @@ def temporary() -> Finding:
     return Finding(name, True, f"{folder}, {free // machine.MIB} MiB free")
 
 
-CHECKS = (python, libraries, settings, pymeshlab, filters, compiler, cache, temporary)
+CHECKS = (packages, settings, pymeshlab, filters, compiler, cache, temporary)
 
 
 def _wrong_setting(name: str, answer: Answer) -> Finding | None:
     """The finding if a process ended because one of Numba's variables is wrong."""
-    _, found, said = answer.printed.rpartition(f"{machine.SettingError.__name__}: ")
+    _, found, message = answer.printed.rpartition(f"{machine.SettingError.__name__}: ")
     if not found or answer.values:
         return None
-    text, _, cure = said.splitlines()[0].partition(machine.MEND)
+    text, _, cure = message.splitlines()[0].partition(machine.MEND)
     return Finding(name, False, text, cure)
 
 

@@ -8,7 +8,7 @@ import signal
 import sys
 import threading
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import FrameType
@@ -20,9 +20,9 @@ from .. import machine
 from ..markup import plain
 from ..mlx.steps import ScriptError
 
-DOCTOR = " ('meshlab-willmore doctor' tells what is missing)"
+DOCTOR = " ('meshlab-willmore doctor' shows what is missing)"
 
-# PyMeshLab says first that it failed, at what, and in which file.
+# How messages of PyMeshLab begin: that it failed, at what, and in which file.
 _PRELUDE = re.compile(r"(?:Error d|D)etails:|Unable to (?:open|save) file:[^\n]*\n")
 # How a command line of meshlabserver begins.
 _OLD_OPTIONS = ("-i", "-o", "-s", "-l", "-m", "-p", "-w", "-x", "-d")
@@ -60,10 +60,12 @@ class WrongUse(click.ClickException):
 class OneLineErrors(click.Group):
     """A group whose commands end with one line and an exit code when something fails."""
 
-    def main(self, *args: Any, **given: Any) -> Any:
-        """Run the command line with all standard streams open."""
+    def main(self, args: Sequence[str] | None = None, *rest: Any, **given: Any) -> Any:
+        """Run the command line with all standard streams open, and UTF-8 in names of files."""
+        if args is None:
+            restart_in_utf8()
         open_closed_streams()
-        return super().main(*args, **given)
+        return super().main(args, *rest, **given)
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Read the options before the command's name."""
@@ -151,12 +153,14 @@ def reason(error: BaseException) -> str:
     return " ".join(text.split()) or type(error).__name__
 
 
-def failure_of(name: str, error: Exception, say: Callable[[BaseException], str] = one_line) -> str:
+def failure_of(
+    name: str, error: Exception, describe: Callable[[BaseException], str] = one_line
+) -> str:
     """One line on an input that failed, with its name; a fault of the machine blames no input."""
     fault = machine.fault_of(error)
     if fault is not None:
         return f"{one_line(fault)} ({name} is left out)"
-    text = say(error)
+    text = describe(error)
     return text if name in text else f"{name}: {text}"
 
 
@@ -184,7 +188,18 @@ debug_option = click.option(
 )
 
 
-# --- streams and signals -----------------------------------------------------------------------
+# --- the process -------------------------------------------------------------------------------
+
+
+def restart_in_utf8() -> None:
+    """Start this process again if PyMeshLab could not open files with non-ASCII names.
+
+    PyMeshLab reads the locale when it is loaded. In the C locale of batch systems Python uses UTF-8
+    for itself and others, but not where ``LC_ALL`` is set.
+    """
+    if sys.platform == "linux" and os.environ.get("LC_ALL") in ("C", "POSIX"):
+        os.environ["LC_ALL"] = "C.UTF-8"
+        os.execv(sys.executable, [sys.executable, *sys.orig_argv[1:]])
 
 
 def open_closed_streams() -> None:
@@ -246,7 +261,7 @@ def stopped_by_signals(ctx: click.Context) -> Iterator[None]:
 def killable() -> Iterator[None]:
     """Inside, SIGTERM and SIGHUP end the process at once: no handler runs during native code.
 
-    Only for times in which no file of ours is half written.
+    Only for times in which no output file is half written.
     """
     with _handled_by(signal.SIG_DFL, callable):
         yield

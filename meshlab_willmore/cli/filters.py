@@ -96,7 +96,7 @@ def _shown(value: Any, param: ParamInfo) -> str:
 
 
 def _defaults(known: FilterInfo) -> dict[str, Any]:
-    """The defaults on a small mesh; some depend on the mesh, some filters want two."""
+    """The defaults on a small mesh; some depend on the mesh, some filters need two."""
     import pymeshlab
 
     from ..meshset import native

@@ -129,7 +129,7 @@ def _why(path: Path, error: Exception) -> str:
     if path.suffix.lower() in formats.PROJECTS:
         return "projects are not read; name their meshes after -i, with --layers"
     if not path.suffix:
-        return "it has no ending that tells its format"
+        return "its name has no ending, which determines the format"
     if "Unknown format" in str(error):
         return f"PyMeshLab knows no mesh format {path.suffix!r}"
     # Without details nothing but the names of file and class is left.
@@ -204,7 +204,7 @@ def _answer(
     except Exception as error:
         problem = why(path, error)
     sender.send(problem)
-    # Without what a process does at its end: nothing of it is ours.
+    # Without exit handlers, which are those of the parent.
     os._exit(0)
 
 

@@ -349,7 +349,7 @@ def _check_distinct(jobs: Iterable[Job], inputs: Iterable[Path]) -> None:
             if key in writers:
                 raise WrongUse(
                     f"{writers[key]} and {source} would both be written to {output.path}; "
-                    "{index} or {dir} in the name tells them apart"
+                    "use {index} or {dir} in the name"
                 )
             if readers.get(key, source) != source:
                 raise WrongUse(f"the result of {source} would replace the input {output.path}")

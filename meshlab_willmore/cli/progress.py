@@ -115,7 +115,7 @@ class Status:
 
 @contextmanager
 def shown(label: str, total: int = 0) -> Iterator[Status]:
-    """Show progress inside, as told to the `Status`."""
+    """Show progress inside, as the `Status` has it."""
     status = Status(label, total)
     stream = sys.stderr
     with ExitStack() as stack:

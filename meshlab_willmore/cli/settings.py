@@ -93,7 +93,7 @@ def _changed(step: Step, setting: Setting) -> Step:
 
 
 def _meant(known: FilterInfo, name: str) -> list[ParamInfo | None]:
-    """The parameters that a name in a script stands for, of today or before."""
+    """The parameters that have, or had in older versions, this name."""
     from ..meshset.old_names import params_of
 
     own = known.param(name)

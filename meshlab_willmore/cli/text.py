@@ -1,4 +1,4 @@
-"""Texts for people: tables that fit the window, counts, notes, and what filters returned."""
+"""Texts to print: notes, tables as wide as the window, counts, and what filters returned."""
 
 from __future__ import annotations
 

@@ -32,13 +32,13 @@ def command() -> None:
     from ..mesh.workers import core_count
     from ..warmup import steps, warm_up
 
-    def say(line: str) -> None:
+    def show(line: str) -> None:
         if sys.stderr.isatty():
             click.echo(line, err=True)
 
     with progress.shown("warmup", len(steps())) as status, progress.with_details(status):
         status.next("everything that is not compiled yet")
-        done = warm_up(say, core_count(), lambda name: status.next(f"done with {name}"))
+        done = warm_up(show, core_count(), lambda name: status.next(f"done with {name}"))
     what = f"{counted(done.compiled, 'kernel')} compiled"
     if not done.compiled:
         what = "everything was compiled already"

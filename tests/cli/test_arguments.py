@@ -93,7 +93,7 @@ def test_outputs_with_their_masks_and_layers(line, outputs, rest):
         ("-o a.ply --force -l x", "-l x apart from its -o"),
         ("-o a -l 1 -o b", "-o b has no layer, but others have; add -l c"),
         ("-o a -o b -l 1", "-o a has no layer, but others have; add -l c"),
-        ("--layer 1 -o a", "--layer 1 stands before every -o"),
+        ("--layer 1 -o a", "--layer 1 comes before every -o"),
         ("-o a --layer one", "--layer one: it must be"),
         ("-o a --layer", "Option '--layer' requires an argument"),
         ("-o", "Option '-o' requires an argument"),

@@ -81,7 +81,7 @@ def test_filter_is_warmed_up_before_timing(task, monkeypatch):
     events = []
     monkeypatch.setattr(contenders, "warm_up", lambda *given: events.append(given))
     given = {"filter": OWN.filter, "given": OWN.given}
-    compare_row._outcome(**task._asdict(), **given, say=events.append)
+    compare_row._outcome(**task._asdict(), **given, send=events.append)
     warmed = (OWN.filter, OWN.given)
     assert events == [compare_row.WARMING, warmed, compare_row.RUNNING, compare_row.MEASURING]
 

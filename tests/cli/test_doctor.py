@@ -273,16 +273,9 @@ def test_cache_shows_how_much_is_compiled(monkeypatch, tmp_path):
 # The rest
 
 
-def test_old_python(monkeypatch):
-    monkeypatch.setattr(sys, "version_info", (3, 9, 2))
-    assert doctor.python() == Finding(
-        "Python", False, "3.9.2 is too old", "install Python 3.10 or later"
-    )
-
-
 def test_package_not_installed(monkeypatch):
     monkeypatch.setattr(doctor, "LIBRARIES", ("numpy", "surely-no-such-package"))
-    finding = doctor.libraries()
+    finding = doctor.packages()
     assert (finding.ok, finding.text) == (False, "surely-no-such-package not installed")
     assert finding.cure.endswith("-m pip install surely-no-such-package")
 

@@ -249,7 +249,7 @@ def test_missing_library_points_to_doctor(monkeypatch):
     assert result.stderr == (
         "Error: PyMeshLab could not be loaded: libGL.so.1: cannot open shared object file. On "
         "Debian and Ubuntu its system libraries come with: apt-get install libgl1 libopengl0 "
-        "('meshlab-willmore doctor' tells what is missing)\n"
+        "('meshlab-willmore doctor' shows what is missing)\n"
     )
 
 

@@ -249,7 +249,7 @@ def no_step(monkeypatch):
         (["script.mlx", "-i", "cube.ply", "two.ply", "-o", "a.ply"], "2 inputs need one -o with a"),
         (
             ["script.mlx", "-i", "cube.ply", "two.ply", "-o", "{ext}.obj"],
-            "cube.ply and two.ply would both be written to ply.obj; {index} or {dir}",
+            "cube.ply and two.ply would both be written to ply.obj; use {index} or {dir}",
         ),
         (
             ["script.mlx", "-i", "two.ply", "cube.ply", "--force", "-o", "{dir}/cube.ply"],

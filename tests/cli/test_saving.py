@@ -3,8 +3,8 @@
 import os
 import socket
 import stat
-import subprocess
 import sys
+from contextlib import contextmanager
 from pathlib import Path
 
 import click
@@ -17,7 +17,7 @@ from meshlab_willmore.cli.paths import check_place
 from meshlab_willmore.cli.saving import SaveOptions, save
 from tests import meshes
 
-from .conftest import SAMPLES, cube_file, listing, loaded, same_mesh
+from .conftest import SAMPLES, call, cube_file, listing, loaded, same_mesh, script_file
 
 TEXTURED = SAMPLES / "bunny10k_textured.obj"
 IMAGE = "TextureDouble_A.png"
@@ -159,35 +159,30 @@ def test_part_that_the_format_cannot_hold_is_named(tmp_path, capsys):
 
 # Whole or not at all
 
-LIMITED = """
-import resource, sys
-resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
-from meshlab_willmore.cli import main
-main(sys.argv[1:], prog_name="meshlab-willmore")
-"""
+@contextmanager
+def limited_files(size):
+    """Files can't become larger, as on a full disk."""
+    resource = pytest.importorskip("resource")
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
 
 
-# PLY's writer tells that it had to stop; those of the others don't.
-@pytest.mark.skipif(sys.platform == "win32", reason="needs limits of POSIX")
+# PLY's writer reports that it had to stop; those of the others don't.
 @pytest.mark.parametrize("ending", ["ply", "obj", "xyz", "json", "dae"])
-@pytest.mark.slow
 def test_full_disk_is_one_line_and_no_output(tmp_path, ending):
-    script = tmp_path / "s.mlx"
-    script.write_text(
-        '<!DOCTYPE FilterScript><FilterScript><filter name="Select None"/></FilterScript>'
-    )
+    script = script_file(("Select None", {}))
     out = tmp_path / "out"
     out.mkdir()
     path = out / f"a.{ending}"
     path.write_text("older")
-    done = subprocess.run(
-        [sys.executable, "-c", LIMITED, "run", script, "-i", TEXTURED, "-o", path, "--force"],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert (done.returncode, done.stdout) == (1, "")
-    assert done.stderr == f"Error: cannot write {path}: File too large\n"
+    with limited_files(100_000):
+        result = call("run", script, "-i", TEXTURED, "-o", path, "--force")
+    assert (result.exit_code, result.stdout) == (1, "")
+    assert result.stderr == f"Error: cannot write {path}: File too large\n"
     assert listing(out) == [path.name]
     assert path.read_text() == "older"
 

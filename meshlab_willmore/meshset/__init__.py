@@ -1,4 +1,4 @@
-"""Everything that knows PyMeshLab; no other room imports it."""
+"""Filters for PyMeshLab, and running filter scripts; lower packages don't import PyMeshLab."""
 
 import contextlib
 import sys
@@ -6,7 +6,7 @@ import sys
 from ..machine import without_library
 
 try:
-    # PyMeshLab prints it where plugins can't be loaded, which is no output of a user's program.
+    # PyMeshLab prints plugins that it can't load, which is not output of a user's program.
     with contextlib.redirect_stdout(sys.stderr):
         import pymeshlab  # noqa: F401
 except ImportError as error:

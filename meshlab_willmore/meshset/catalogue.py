@@ -1,8 +1,8 @@
-"""Which filters there are, ours and MeshLab's own, and what they and their parameters are called.
+"""The catalogue of all filters, ours and MeshLab's own, with their names and parameters.
 
-MeshLab and its scripts use other names than PyMeshLab, and PyMeshLab can't tell them: they stand in
-`native_filters.json`, recorded with one version of it. What another version has, or a plugin that
-was loaded later, is asked from PyMeshLab itself (see `filter_info`).
+MeshLab and its scripts use other names than PyMeshLab, which does not know them: they are in
+`native_filters.json`, recorded with one version of PyMeshLab. For filters of other versions, or of
+plugins that were loaded later, PyMeshLab itself is asked (see `filter_info`).
 """
 
 from __future__ import annotations
@@ -36,11 +36,11 @@ _LONGEST_NAME = 200
 
 
 def find(name: str) -> FilterInfo | None:
-    """The filter of that name, of today or before, in MeshLab or PyMeshLab.
+    """The filter of that name in MeshLab or PyMeshLab, today or in older versions.
 
-    Upper and lower case differ, as they do in MeshLab; blanks at the ends and doubled ones don't. A
-    filter that the PyMeshLab at hand has not got, but others have, is found too; it is not
-    `available`. Steps of old scripts that are no filters of a mesh are found as well.
+    Upper and lower case differ, as in MeshLab; blanks at the ends and doubled ones are ignored. A
+    filter that only other versions of PyMeshLab have is found too; it is not `available`. Steps of
+    old scripts that act on the set are found as well.
     """
     name = old_names.plain(name)
     if name in BY_NAME:
@@ -64,10 +64,7 @@ def _before(name: str) -> str | None:
 
 
 def closest(name: str) -> list[str]:
-    """Up to three names of filters that `name` may be misspelt for.
-
-    They are MeshLab's names or PyMeshLab's, whichever it resembles more.
-    """
+    """Up to three filter names that resemble `name`: MeshLab's or PyMeshLab's, the nearer ones."""
     known = (*everything(), *map(_of_document, document.STEPS))
     meshlab, ours = [k.meshlab_name for k in known if k.meshlab_name], [k.name for k in known]
     return max(
@@ -77,7 +74,7 @@ def closest(name: str) -> list[str]:
 
 
 def similar(word: str, names: Iterable[str]) -> list[str]:
-    """Up to three of the names that resemble `word`, the nearest first, whatever their case."""
+    """Up to three of the names that resemble `word`, the nearest first, ignoring case."""
     by_lower = {name.lower(): name for name in names}
     found = difflib.get_close_matches(
         word.lower()[:_LONGEST_NAME], by_lower, _MOST_SUGGESTIONS, _LEAST_LIKENESS
@@ -86,18 +83,18 @@ def similar(word: str, names: Iterable[str]) -> list[str]:
 
 
 def everything() -> tuple[FilterInfo, ...]:
-    """All filters that the PyMeshLab at hand has, and ours, by PyMeshLab's name."""
+    """All filters that the installed PyMeshLab has, and ours, sorted by PyMeshLab's name."""
     natives = (_native(name) for name in _there())
     return tuple(sorted((*natives, *map(_ours, FILTERS)), key=lambda known: known.name))
 
 
 def missing() -> tuple[FilterInfo, ...]:
-    """The filters that PyMeshLab had when they were recorded, and the one at hand has not."""
+    """The recorded filters that the installed PyMeshLab does not have."""
     return tuple(_native(name) for name in sorted(_recorded().keys() - _there()))
 
 
 def version() -> str:
-    """The version of the PyMeshLab at hand; "latest" where it doesn't tell."""
+    """The version of the installed PyMeshLab; "latest" if it is unknown."""
     try:
         return metadata.version("pymeshlab")
     except metadata.PackageNotFoundError:
@@ -105,7 +102,7 @@ def version() -> str:
 
 
 def recorded_version() -> str:
-    """The version of PyMeshLab that the names of its filters were recorded with."""
+    """The version of PyMeshLab whose filters were recorded."""
     return _file()["pymeshlab"]
 
 
@@ -126,7 +123,7 @@ def _recorded() -> dict[str, dict[str, Any]]:
 
 
 def _there() -> frozenset[str]:
-    """The native filters that PyMeshLab has at this moment; plugins can come while it runs."""
+    """The native filters that PyMeshLab has now; plugins can be loaded while it runs."""
     return _there_with(pymeshlab.plugin_number())
 
 
@@ -148,15 +145,15 @@ def _renamed() -> dict[str, str]:
 
 
 def _new_name(name: str) -> str | None:
-    """PyMeshLab's name of a filter that is not recorded as `name`, or was called that before."""
+    """PyMeshLab's name of a filter that is not recorded under `name`, or had it before 2022."""
     old, there = keyword_of(name), _there()
-    # Of an unrecorded filter it is the one name that is known, or what its name in MeshLab makes.
+    # An unrecorded filter is known by this name only, or by what its name in MeshLab becomes.
     if old in there - _recorded().keys():
         return old
     today = _renamed().get(old)
     if today not in _recorded() and today not in there:
         return None
-    # What differs from today's name in case or punctuation only is that name misspelt.
+    # A name that differs from today's only in case or punctuation is misspelt.
     todays = _recorded().get(today, {"name": ""})["name"]
     return None if name != old and keyword_of(todays) == old else today
 
@@ -167,7 +164,7 @@ def _native(name: str) -> FilterInfo:
 
 @functools.cache
 def _read(name: str, there: bool) -> FilterInfo:
-    """A native filter, as recorded or else as PyMeshLab tells."""
+    """A native filter as recorded, or else as PyMeshLab describes it."""
     entry = _recorded().get(name)
     manual = _MANUAL.format(version=version(), name=name)
     if entry is None:

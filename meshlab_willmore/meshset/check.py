@@ -1,6 +1,6 @@
-"""Steps of a filter script to calls of filters, with all that is wrong in them said at once.
+"""Checks the steps of a filter script, reports all faults at once, and turns them into calls.
 
-Nothing is run for it. What PyMeshLab would skip, take for something else or crash at is a fault.
+Nothing is run. Whatever PyMeshLab would skip, misread or crash at is a fault.
 """
 
 from __future__ import annotations
@@ -48,20 +48,17 @@ class Call(NamedTuple):
     given : dict
         The parameters that the step gives, by PyMeshLab's keyword; an enum's value is its index.
     details : dict
-        What else the script says of each: description, range and the like.
+        The other attributes of each in the script: description, range and so on.
     """
 
     number: int
     known: FilterInfo
     given: dict[str, Value]
-    details: dict[str, tuple[tuple[str, str], ...]] = {}  # noqa: RUF012 - nobody changes it
+    details: dict[str, tuple[tuple[str, str], ...]] = {}  # noqa: RUF012 - never changed
 
 
 class Findings(NamedTuple):
-    """What a check found: calls of the steps that can be run, faults, and warnings.
-
-    With them comes what was checked.
-    """
+    """What a check found: calls of the steps that can be run, faults, warnings, and its input."""
 
     calls: tuple[Call, ...]
     faults: tuple[Fault, ...]
@@ -72,16 +69,16 @@ class Findings(NamedTuple):
 def resolve(
     steps: Iterable[Step], source: str, mesh_ids: Collection[int] | None = None
 ) -> tuple[Call, ...]:
-    """Check steps and say what to call.
+    """Check steps and turn them into calls.
 
     Parameters
     ----------
     steps : iterable of Step
         As read from a script, or made by hand.
     source : str
-        What errors call the script.
+        The name of the script in errors.
     mesh_ids : collection of int, optional
-        The meshes that are there before the first step; if it is not given, ids are not checked.
+        The ids before the first step; if it is not given, ids are not checked.
 
     Returns
     -------
@@ -100,14 +97,14 @@ def resolve(
 
 
 def faults_of(steps: Iterable[Step], mesh_ids: Collection[int] | None = None) -> list[Fault]:
-    """All that is wrong with steps; empty if they can be run. Parameters are those of `resolve`."""
+    """All faults of steps; empty if they can be run. Parameters are those of `resolve`."""
     return list(examine(Reading(tuple(steps)), mesh_ids).faults)
 
 
 def examine(reading: Reading, mesh_ids: Collection[int] | None = None) -> Findings:
-    """Check what was read of a script, and put its faults with those of the reading.
+    """Check what was read of a script, and merge its faults with those of the reading.
 
-    What follows from a fault of the reading is no fault of its own.
+    A consequence of a fault of the reading is not reported again.
     """
     checker = _Checker(mesh_ids)
     if reading.is_loose:
@@ -129,14 +126,13 @@ def _merged(read: Iterable[Fault], checked: Iterable[Fault]) -> tuple[Fault, ...
 
 
 _LOOSE = (
-    "is no XML: attributes stand without a blank between them, or twice; MeshLab reads it all the "
-    "same"
+    "is no XML: attributes have no blank between them, or are given twice; MeshLab still reads it"
 )
 _MORE = Fault(f"has more than {MOST_FAULTS} faults; these are the first")
 
 
 def is_todays(step: Step) -> bool:
-    """Whether PyMeshLab itself knows the filter and the parameters of a step by these names."""
+    """Whether PyMeshLab itself knows the filter and the parameters of a step by their names."""
     known = catalogue.find(step.filter)
     if known is None or step.filter != known.meshlab_name or document.is_step(known.name):
         return False
@@ -192,17 +188,17 @@ def _with_choices(
 
 
 class _EnoughError(Exception):
-    """There is no sense in going on."""
+    """There are more faults than are reported."""
 
 
 class _Checker:
-    """Goes through steps in order; knows which meshes there can be, and collects faults."""
+    """Checks steps in order, keeps track of the meshes that can exist, and collects faults."""
 
     def __init__(self, mesh_ids: Collection[int] | None) -> None:
         self.faults: list[Fault] = []
         self.warnings: list[ScriptWarning] = []
         self._ids = mesh_ids
-        # How many meshes are left, as long as none can have been added.
+        # The number of meshes, as long as none can have been added.
         self._left = len(mesh_ids) if mesh_ids is not None else 0
         self._may_be_more = False
         # At most how new the script is, by the old names in it; see `old_names.age`.
@@ -241,7 +237,7 @@ class _Checker:
         return [call]
 
     def _take(self, call: Call, step: Step, item: Given, own: ParamInfo) -> None:
-        """Put a parameter's value into a call, or tell why it is none."""
+        """Put a parameter's value into a call, or add the fault."""
         try:
             value = value_of(item.param, own)
             _check_range(call.known, own, value)
@@ -281,7 +277,7 @@ class _Checker:
                 self._add(number, step, "is missing; the filter can't do without it", own.name)
 
     def _check_broken(self, number: int, step: Step, known: FilterInfo, gap: Gap) -> None:
-        """Tell what else is wrong with parameters whose values can't be read."""
+        """Add what else is wrong with parameters whose values can't be read."""
         for param in gap.broken:
             own = known.param(old_names.plain(param.name))
             if own is not None:
@@ -309,7 +305,7 @@ class _Checker:
             self._age = old_names.older(self._age, old_names.age(old.until))
 
     def warn_of_defaults(self) -> None:
-        """Tell of defaults that have changed since the script was written, as far as it shows."""
+        """Warn of defaults that have changed since the script was written, if its age shows."""
         for number, step, call in self._checked if self._age is not None else ():
             for old in old_names.defaults_of(call.known.name):
                 own = call.known.param(old.param)
@@ -350,7 +346,7 @@ class _Checker:
 
 
 def _check_range(known: FilterInfo, own: ParamInfo, value: Value) -> None:
-    """Raise `ValueError` if a parameter of ours is out of range; MeshLab's tell no ranges."""
+    """Raise `ValueError` if a parameter of ours is out of range; MeshLab's have no known ranges."""
     for parameter in BY_NAME[known.name].parameters if known.is_willmore else ():
         if parameter.name == own.keyword and parameter.check is not None:
             parameter.check(value)

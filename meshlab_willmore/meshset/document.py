@@ -1,7 +1,7 @@
-"""Steps of MeshLab's older scripts that are about the set of meshes, not about a mesh.
+"""Steps of older scripts that act on the set of meshes, MeshLab's "document", not on a mesh.
 
-MeshLab had them as filters until 2021.07. PyMeshLab has none of these filters, but methods of
-`MeshSet`, so these steps are played here.
+They were filters of MeshLab until 2021.07. PyMeshLab has methods of `MeshSet` instead, so these
+steps are run here.
 """
 
 from __future__ import annotations
@@ -45,8 +45,7 @@ _VISIBILITY = DocumentStep(
     ),
     "Shows or hides a layer, or all whose names hold a text.",
 )
-# MeshLab's meshes could have unused places for vertices and faces; a mesh of PyMeshLab has none
-# that anyone sees.
+# In MeshLab deleted vertices and faces could stay in memory; PyMeshLab shows none.
 _COMPACT = tuple(
     DocumentStep(keyword_of(name), (name,), (), "Did nothing that could be seen.")
     for name in ("Compact vertices", "Compact faces")
@@ -61,12 +60,12 @@ def find(name: str) -> DocumentStep | None:
 
 
 def is_step(name: str) -> bool:
-    """Whether a name in PyMeshLab is that of such a step."""
+    """Whether a name, in PyMeshLab's form, is that of such a step."""
     return any(step.name == name for step in STEPS)
 
 
 def play(ms: MeshSet, name: str, given: Mapping[str, Any]) -> dict[str, Any]:
-    """Do what a step says; ids in `given` are those that the set shows.
+    """Run a step; ids in `given` are logical.
 
     Parameters
     ----------
@@ -96,7 +95,7 @@ def play(ms: MeshSet, name: str, given: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _chosen(ms: MeshSet, given: Mapping[str, Any]) -> list[int]:
-    """The physical ids of the layers that a step is about."""
+    """The physical ids of the layers that a step acts on."""
     part = given.get("lname", "")
     if part:
         return [native.id_of(mesh) for mesh in ms if part in mesh.label()]

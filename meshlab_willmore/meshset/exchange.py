@@ -1,11 +1,11 @@
-"""A mesh with other faces into its set, with nothing lost on the way.
+"""Puts a mesh with other faces into its set, without loss of other data.
 
-The mesh travels as PyMeshLab's own PLY (see `ply`), in a folder that is gone at the end:
+The mesh is loaded from PyMeshLab's own PLY (see `ply`) in a temporary folder:
 ``pymeshlab.Mesh(...)`` takes no selection, faux edges, texture images or radii, and with `add_mesh`
-it takes three times as long, because both compute normals. The file brings them along. Custom
-attributes go by the `Mesh` methods after that, because PyMeshLab 2025.7 crashes on attributes of a
-mesh that `add_mesh` copied. What PyMeshLab might drop is found by comparing: a small part of the
-mesh in a set of its own before the user's set is touched, and then the whole.
+it takes three times as long, because both compute normals, which the file holds. Custom attributes
+are added by the `Mesh` methods afterwards, because PyMeshLab 2025.7 crashes on attributes of a mesh
+that `add_mesh` copied. A comparison finds what PyMeshLab might drop: first with a small part of the
+mesh in a set of its own, before the user's set is changed, and then with the whole mesh.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ _NORMAL = ("nx", "ny", "nz")
 # MeshLab writes radii as double, but reads them into the place of a float.
 _READABLE = {"radius": np.dtype("<f4")}
 
-# Qt's quality of a PNG is how little it is compressed.
+# Quality in Qt; for PNG it means least compression.
 _FASTEST = 100
 _BYTES_OF_PIXEL = 3
 _SAVED_IMAGE = "meshlab_willmore.png"
@@ -46,7 +46,7 @@ _ONE_PIXEL = b"P1 1 1 0\n"
 
 
 def give(ms: pymeshlab.MeshSet, old: Snapshot, new: Snapshot) -> None:
-    """Put the mesh `new` in the place of the current mesh of `ms`.
+    """Replace the current mesh of `ms` by the mesh `new`.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ def give(ms: pymeshlab.MeshSet, old: Snapshot, new: Snapshot) -> None:
 
 
 def _size(snapshot: Snapshot) -> int:
-    """How many bytes the files have, about; an image is hardly compressed."""
+    """Size of the files in bytes, about; images are hardly compressed."""
     mesh = snapshot.ply
     records = mesh.vertices.nbytes + snapshot.normals.nbytes + mesh.faces.nbytes + mesh.edges.nbytes
     images = snapshot.images.values()
@@ -99,9 +99,9 @@ def with_faces(old: Snapshot, faces: np.ndarray, corners: np.ndarray) -> Snapsho
     faces : (m, 3) int32 ndarray
         The new faces, slot by slot.
     corners : (m, 3) int32 ndarray
-        For each new corner the old corner (3 * face + place) whose wedge data it takes.
+        For each new corner the old corner (3 * face + place) whose wedge data it gets.
     """
-    # Numba takes too long to import for those who don't flip.
+    # Numba takes too long to import for programs that don't flip.
     from ..mesh.normals import vertex_normals
 
     changed = {"vertex_indices": faces, "flags": carry_side_bits(old.ply, faces)}
@@ -114,7 +114,7 @@ def with_faces(old: Snapshot, faces: np.ndarray, corners: np.ndarray) -> Snapsho
 
 
 def _part(whole: Snapshot) -> Snapshot:
-    """A mesh of a few of the faces and edges, with all that the whole mesh has."""
+    """A mesh of a few of the faces and edges, with every kind of data of the whole mesh."""
     kept = _first_and_flagged(whole.ply.faces)
     faces = whole.ply.faces[kept]
     edges = whole.ply.edges[:_PART_SIZE]
@@ -140,7 +140,7 @@ def _first_and_flagged(records: np.ndarray) -> np.ndarray:
 
 
 def _write(path: Path, snapshot: Snapshot) -> None:
-    """The PLY. It names the images; flags are left out where none is set."""
+    """Write the PLY. It names the images; flags are left out if none is set."""
     mesh = snapshot.ply
     normals = dict(zip(_NORMAL, snapshot.normals.T, strict=True))
     carried = mesh._replace(
@@ -187,7 +187,7 @@ def _file_names(textures: tuple[str, ...]) -> dict[str, str]:
 
 
 def _mesh_path(folder: Path, textures: tuple[str, ...]) -> Path:
-    """Where the mesh stands: so deep in `folder` that ``..`` in a name stays inside."""
+    """Where the PLY is: so deep in `folder` that ``..`` in a texture's name stays inside."""
     upwards = max((PurePosixPath(name).parts.count("..") for name in textures), default=0)
     return folder.joinpath(*["mesh"] * upwards, MESH_FILE)
 
@@ -202,7 +202,7 @@ def _leave_the_users_files(folder: Path, textures: tuple[str, ...]) -> None:
 
 
 def _write_image(path: Path, name: str, snapshot: Snapshot) -> None:
-    """The image of a texture; one pixel if no texture has any, for PyMeshLab to keep its name."""
+    """Write the image of a texture; one pixel if no texture has any, so that its name is kept."""
     path.parent.mkdir(parents=True, exist_ok=True)
     if snapshot.is_without_pixels:
         path.write_bytes(_ONE_PIXEL)
@@ -211,14 +211,14 @@ def _write_image(path: Path, name: str, snapshot: Snapshot) -> None:
 
 
 def _save_image(image: pymeshlab.Image, path: Path) -> None:
-    """Save without loss; Qt tells an image's format from its content, not from its name."""
+    """Save without loss as PNG; Qt detects the format by the content, not by the name."""
     lossless = path.with_name(_SAVED_IMAGE)
     image.save(str(lossless), _FASTEST)
     lossless.replace(path)
 
 
 def _load_whole(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
-    """Load a mesh as `_load` does, and raise if something of it was lost on the way."""
+    """Load a mesh as `_load` does, and raise if something of it was lost."""
     _load(ms, path, snapshot)
     lost = _lost(ms, snapshot)
     if lost:
@@ -229,13 +229,13 @@ def _load_whole(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
 
 
 def _load(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
-    """Load the mesh of `_write` as a new current mesh, as a native filter leaves one."""
+    """Load the mesh that `_write` wrote as a new current mesh, as a native filter leaves one."""
     if snapshot.is_without_pixels:
         _load_without_pixels(ms, path, snapshot)
     else:
         _load_with_images(ms, path, snapshot)
     if selected(snapshot.ply.vertices).any() or selected(snapshot.ply.faces).any():
-        # MeshLab counts what is selected after filters only; by it, others choose their defaults.
+        # MeshLab counts what is selected after filters only; defaults of others depend on it.
         native.apply(ms, "apply_normal_normalization_per_vertex")
     mesh = ms.current_mesh()
     for attribute in snapshot.attributes:
@@ -255,8 +255,8 @@ def _load_with_images(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> 
 def _load_without_pixels(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
     """Load the mesh with names of textures, but no images.
 
-    PyMeshLab loads no such mesh. But one that is copied from another set leaves its images there;
-    and one that is copied again gets empty ones, as after a native filter.
+    PyMeshLab loads no such mesh. But a copy from another set has no images, and a copy of the copy
+    has empty ones, as after a native filter.
     """
     carrier = pymeshlab.MeshSet()
     _load_with_images(carrier, path, snapshot)
@@ -276,7 +276,7 @@ def _reload(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
 
 
 def _lost(ms: pymeshlab.MeshSet, snapshot: Snapshot) -> list[str]:
-    """In what the current mesh, as PyMeshLab read it, differs from what was to be carried."""
+    """In what the current mesh, as PyMeshLab read it, differs from the snapshot."""
     mesh, vertices, faces = ms.current_mesh(), snapshot.ply.vertices, snapshot.ply.faces
     names, face_names = vertices.dtype.names or (), faces.dtype.names or ()
     copied = snapshot.is_without_pixels
@@ -307,8 +307,8 @@ def _lost(ms: pymeshlab.MeshSet, snapshot: Snapshot) -> list[str]:
 
 
 def _same(left: np.ndarray, right: np.ndarray) -> bool:
-    # PyMeshLab's matrices are stored column by column. Only texture coordinates can be NaN, and
-    # to look for that takes longer than to compare.
+    # PyMeshLab's matrices are stored by columns. Only texture coordinates can be NaN, and a search
+    # for NaN takes longer than the comparison.
     right = np.asfortranarray(right)
     is_float = np.issubdtype(right.dtype, np.floating)
     return np.array_equal(left, right) or (is_float and np.array_equal(left, right, equal_nan=True))

@@ -1,7 +1,7 @@
-"""What is known of a filter and its parameters, and what PyMeshLab itself tells of these.
+"""Information on a filter and its parameters, and asking PyMeshLab for it.
 
-PyMeshLab tells keywords, defaults and, by what it refuses, types and choices. It needs a mesh for
-that, and some filters crash without one, so it is asked about a small mesh in a set of its own.
+PyMeshLab gives keywords and defaults; types and choices follow from the values that it refuses. It
+needs a mesh to answer, and some filters crash without one, so a set with a triangle is used.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ class ParamInfo(NamedTuple):
     required : bool
         Whether the filter fails without it.
     guessed : bool
-        Whether only PyMeshLab told of it: MeshLab's name for it is not known, its type a guess.
+        Whether it is known from PyMeshLab only: MeshLab's name is unknown, the type a guess.
     """
 
     name: str
@@ -71,7 +71,7 @@ class FilterInfo(NamedTuple):
     Attributes
     ----------
     name, meshlab_name : str
-        The name in PyMeshLab, and the one in MeshLab and its scripts (empty where nobody knows it).
+        The name in PyMeshLab, and the one in MeshLab and its scripts (empty if it is unknown).
     params : tuple of ParamInfo
         In MeshLab's order.
     is_willmore : bool
@@ -79,11 +79,11 @@ class FilterInfo(NamedTuple):
     makes_layers : bool
         Whether it can add meshes to a set.
     summary : str
-        What it does; of MeshLab's own, where that can be read.
+        What it does; for MeshLab's own, a link to the manual.
     needs_mesh : bool
         Whether it fails on an empty set.
     available : bool
-        Whether the PyMeshLab at hand has it.
+        Whether the installed PyMeshLab has it.
     """
 
     name: str
@@ -109,7 +109,7 @@ class FilterInfo(NamedTuple):
 
 
 def params(name: str) -> tuple[ParamInfo, ...]:
-    """The parameters of a native filter as PyMeshLab tells them, without MeshLab's names."""
+    """The parameters of a native filter as PyMeshLab has them, without MeshLab's names."""
     return tuple(_param(name, key, value) for key, value in _defaults(name, 1, 0).items())
 
 
@@ -141,7 +141,7 @@ def default_places(name: str, keywords: Iterable[str], count: int, current: int)
 
 @functools.cache
 def _defaults(name: str, count: int, current: int) -> dict[str, Any]:
-    """The filter's defaults in a set of `count` meshes; empty if PyMeshLab can't tell them."""
+    """The filter's defaults in a set of `count` meshes; empty if PyMeshLab gives none."""
     ms = _triangles(count)
     native.make_current(ms, current)
     try:
@@ -218,7 +218,7 @@ def _triangles(count: int) -> MeshSet:
 
 
 def _new_triangles(count: int) -> MeshSet:
-    """A set of triangles with scalars, which some filters need to tell their defaults."""
+    """A set of triangles with scalars, on which the defaults of some filters depend."""
     ms = MeshSet()
     corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
     values = {"v_scalar_array": np.arange(3.0), "f_scalar_array": np.arange(1.0)}

@@ -1,4 +1,4 @@
-"""The filters: what each is called, its parameters, and what it does to the current mesh."""
+"""The table of our filters, and the two that measure."""
 
 from __future__ import annotations
 

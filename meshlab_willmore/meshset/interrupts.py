@@ -1,4 +1,4 @@
-"""Ctrl-C at the right moment: not in the middle of a change, and never lost."""
+"""Ctrl-C (SIGINT): deferred during a change, and never lost."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ def deferred() -> Iterator[None]:
 
 @contextmanager
 def kept() -> Iterator[None]:
-    """A Ctrl-C inside ends in `KeyboardInterrupt`, whatever becomes of it on the way.
+    """A Ctrl-C inside ends in `KeyboardInterrupt`, even if code inside drops the exception.
 
-    Numba's compiler has places where Python can only print and forget an exception.
+    Numba's compiler calls Python in places where an exception can only be printed.
     """
     with _watched(lambda handle: handle()) as (caught, _):
         try:

@@ -1,11 +1,11 @@
-"""Replacing a layer of a `MeshSet` so that nobody who looks on is harmed.
+"""Replacing a layer of a `MeshSet`, without freeing memory that a held `Mesh` object points to.
 
-PyMeshLab edits a mesh in place only from C++, so a mesh with other faces is a new layer. Where the
-set has just that mesh and nobody holds it, the set is filled anew. Elsewhere the new layer goes to
-the end of PyMeshLab's list with an id of its own, and is known by the old id (see `ids`). If
-somebody holds a `Mesh` object of the old layer, that layer is *parked*: hidden, left out when
-layers are counted, gone through or looked for by id, and deleted when the object is gone (`sweep`).
-So no object that was handed out ever points to freed memory.
+PyMeshLab edits a mesh in place only from C++, so a mesh with other faces is a new layer. If the set
+has only that mesh and no `Mesh` object of it is held, the set is emptied and filled again.
+Otherwise the new layer goes to the end of PyMeshLab's list with an id of its own, and keeps the old
+one as its logical id (see `ids`). If a `Mesh` object of the old layer is held, that layer is
+*parked*: hidden, left out when layers are counted, iterated over or found by id, and deleted when
+the object is gone (`sweep`).
 """
 
 from __future__ import annotations
@@ -29,20 +29,20 @@ _parked: native.PerSet[frozenset[int]] = native.PerSet(frozenset())
 
 
 class Identity(NamedTuple):
-    """What a layer is called and where it stands: label, visibility, (4, 4) transform."""
+    """Label, visibility and (4, 4) transform of a layer."""
 
     label: str
     visible: bool
     transform: np.ndarray
 
 
-def identity(mesh: pymeshlab.Mesh) -> Identity:
+def identity_of(mesh: pymeshlab.Mesh) -> Identity:
     """The identity of `mesh`."""
     return Identity(mesh.label(), mesh.is_visible(), mesh.transform_matrix())
 
 
 def _is_alone_and_free(ms: MeshSet) -> bool:
-    """Whether the current mesh is all there is in `ms`, and nobody holds it."""
+    """Whether the current mesh is all there is in `ms`, and no `Mesh` object of it is held."""
     alone = len(native.ids(ms)) == 1 and ms.raster_number() == 0
     return alone and not _is_held(ms, native.ids(ms)[0])
 
@@ -51,21 +51,21 @@ def replace_current(
     ms: MeshSet,
     load: Callable[[MeshSet], None],
     reload: Callable[[MeshSet], None],
-    who: Identity,
+    identity: Identity,
     by_copies: bool = False,
 ) -> None:
-    """Let `load` bring a new layer into `ms`, and let it take the place of the current one.
+    """Replace the current layer of `ms` by one that `load` adds.
 
     Parameters
     ----------
     ms : pymeshlab.MeshSet
-        Changed in place: afterwards the new layer is current, carries the identity `who` and has
-        the logical id of the old one. If `load` fails, the set is as it was.
+        Changed in place: afterwards the new layer is current and has `identity` and the logical
+        id of the old one. If `load` fails, the set is as it was.
     load : callable
         Called with `ms`; must add one layer and make it current.
     reload : callable
-        Brings the old layer back in the same way, if `load` fails.
-    who : Identity
+        Adds the old layer again in the same way, if `load` fails.
+    identity : Identity
         Label, visibility and transform of the new layer.
     by_copies : bool
         Whether `load` uses up more than one id, and notes the others.
@@ -79,7 +79,7 @@ def replace_current(
                 _refill(ms, old_id, next_id, load)
             except BaseException:
                 _refill(ms, old_id, next_id, reload)
-                _identify(ms, who)
+                _identify(ms, identity)
                 raise
         else:
             if next_id is not None:
@@ -87,23 +87,23 @@ def replace_current(
             _add(ms, load)
             ids.note_replaced(ms, old_id, _current_id(ms))
             _retire(ms, old_id)
-        _identify(ms, who)
+        _identify(ms, identity)
 
 
 def _refill(ms: MeshSet, wanted_id: int, next_id: int, load: Callable[[MeshSet], None]) -> None:
-    """Empty the set and load: ids start again at 0, so stand-ins use up the others."""
+    """Empty the set and load; ids start again at 0, so placeholder layers use up the others."""
     native.clear(ms)
     for _ in range(wanted_id):
-        _stand_in(ms)
+        _add_placeholder(ms)
     load(ms)
     for _ in range(wanted_id + 1, next_id):
-        _stand_in(ms)
+        _add_placeholder(ms)
     if next_id > 1:
         native.apply(ms, "delete_non_visible_meshes")
         native.make_current(ms, wanted_id)
 
 
-def _stand_in(ms: MeshSet) -> int:
+def _add_placeholder(ms: MeshSet) -> int:
     """Add a hidden layer of one point, which becomes the current one; its id."""
     native.add(ms, pymeshlab.Mesh(np.zeros((1, 3))))
     native.show(ms, _current_id(ms), False)
@@ -111,16 +111,16 @@ def _stand_in(ms: MeshSet) -> int:
 
 
 def _use_up_id(ms: MeshSet) -> int:
-    """The id that the next layer would have had: PyMeshLab tells only by giving it away."""
+    """The id that the next layer would have had, which is used up for it."""
     current = _current_id(ms)
-    mesh_id = _stand_in(ms)
+    mesh_id = _add_placeholder(ms)
     native.apply(ms, "delete_current_mesh")
     native.make_current(ms, current)
     return mesh_id
 
 
 def _add(ms: MeshSet, load: Callable[[MeshSet], None]) -> None:
-    """Load beside what is there, or leave all as it is."""
+    """Load a layer beside the others; if that fails, leave the set as it was."""
     current, before = _current_id(ms), native.ids(ms)
     try:
         load(ms)
@@ -134,7 +134,7 @@ def _add(ms: MeshSet, load: Callable[[MeshSet], None]) -> None:
 
 
 def _retire(ms: MeshSet, old_id: int) -> None:
-    """Delete the old layer, or park it as long as somebody holds it."""
+    """Delete the old layer, or park it as long as a `Mesh` object of it is held."""
     if _is_held(ms, old_id):
         _parked.put(ms, _parked.get(ms) | {old_id})
         native.show(ms, old_id, False)
@@ -150,11 +150,12 @@ def delete(ms: MeshSet, mesh_id: int) -> None:
     native.make_current(ms, current)
 
 
-def _identify(ms: MeshSet, who: Identity) -> None:
-    native.current_mesh(ms).set_label(who.label)
-    native.show(ms, _current_id(ms), who.visible)
-    if not np.array_equal(who.transform, np.eye(4)):
-        native.apply(ms, "set_matrix", transformmatrix=who.transform, compose=False, freeze=False)
+def _identify(ms: MeshSet, identity: Identity) -> None:
+    label, visible, transform = identity
+    native.current_mesh(ms).set_label(label)
+    native.show(ms, _current_id(ms), visible)
+    if not np.array_equal(transform, np.eye(4)):
+        native.apply(ms, "set_matrix", transformmatrix=transform, compose=False, freeze=False)
 
 
 def _current_id(ms: MeshSet) -> int:
@@ -165,7 +166,7 @@ def _current_id(ms: MeshSet) -> int:
 
 
 def parked(ms: MeshSet) -> frozenset[int]:
-    """Ids of the layers that are there only because somebody holds their `Mesh`."""
+    """Ids of the layers that exist only because a `Mesh` object of them is held."""
     return frozenset(i for i in _parked.get(ms) if native.is_there(ms, i))
 
 
@@ -193,13 +194,13 @@ def logical_ids(ms: MeshSet) -> list[int]:
 
 
 def no_such_id(ms: MeshSet, mesh_id: int) -> str:
-    """What to say of a logical id that no layer has."""
+    """The message for a logical id that no layer has."""
     there = ", ".join(map(str, logical_ids(ms))) or "none"
     return f"there is no mesh {mesh_id} (there are: {there})"
 
 
 def sweep(ms: MeshSet) -> None:
-    """Delete the parked layers of `ms` that nobody holds any more."""
+    """Delete the parked layers of `ms` that are not held any more."""
     if not _parked.get(ms):
         return
     free = {i for i in parked(ms) if not _has_wrapper(ms, i)}
@@ -222,5 +223,8 @@ def _is_held(ms: MeshSet, mesh_id: int) -> bool:
 
 
 def _has_wrapper(ms: MeshSet, mesh_id: int) -> bool:
-    """PyMeshLab hands out the living object if there is one, and a new one dies at once."""
+    """Whether a `Mesh` object of this layer is alive.
+
+    PyMeshLab returns that object then, and else a new one, which is gone at once.
+    """
     return weakref.ref(native.mesh(ms, mesh_id))() is not None

@@ -1,7 +1,7 @@
-"""PyMeshLab's own functions, called so that nobody can tell.
+"""PyMeshLab's own functions, called without side effects that a user could notice.
 
-Helper filters of this package don't show in a set's filter script, print nothing, and are not seen
-by subclasses or wrappers of `MeshSet`. Ids are PyMeshLab's own here, the physical ones of
+Helper filters of this package don't show in a set's filter script, print nothing, and don't go
+through subclasses or wrappers of `MeshSet`. Ids here are PyMeshLab's own, the physical ones of
 `ids`.
 """
 
@@ -28,25 +28,25 @@ from pymeshlab import MeshSet
 from ..machine import temporary_folder
 
 # PyMeshLab's own, not what `register` (of a module that was imported before) replaced them with.
-_add_mesh = inspect.unwrap(MeshSet.add_mesh)
+add = inspect.unwrap(MeshSet.add_mesh)
+clear = inspect.unwrap(MeshSet.clear)
+clear_script = inspect.unwrap(MeshSet.clear_filter_script)
+current_mesh = inspect.unwrap(MeshSet.current_mesh)
+defaults = inspect.unwrap(MeshSet.filter_parameter_values)
+id_of = inspect.unwrap(pymeshlab.Mesh.id)
+is_there = inspect.unwrap(MeshSet.mesh_id_exists)
+mesh = inspect.unwrap(MeshSet.mesh)
+show = inspect.unwrap(MeshSet.set_mesh_visibility)
 _apply_filter = inspect.unwrap(MeshSet.apply_filter)
-_clear = inspect.unwrap(MeshSet.clear)
-_clear_filter_script = inspect.unwrap(MeshSet.clear_filter_script)
-_current_mesh = inspect.unwrap(MeshSet.current_mesh)
 _current_mesh_id = inspect.unwrap(MeshSet.current_mesh_id)
-_filter_parameter_values = inspect.unwrap(MeshSet.filter_parameter_values)
 _iterate = inspect.unwrap(MeshSet.__iter__)
 _load_filter_script = inspect.unwrap(MeshSet.load_filter_script)
 _load_new_mesh = inspect.unwrap(MeshSet.load_new_mesh)
-_mesh = inspect.unwrap(MeshSet.mesh)
-_mesh_id_exists = inspect.unwrap(MeshSet.mesh_id_exists)
 _print_filter_script = inspect.unwrap(MeshSet.print_filter_script)
 _save_filter_script = inspect.unwrap(MeshSet.save_filter_script)
 _set_current_mesh = inspect.unwrap(MeshSet.set_current_mesh)
-_set_mesh_visibility = inspect.unwrap(MeshSet.set_mesh_visibility)
 _set_parameter_verbosity = inspect.unwrap(MeshSet.set_parameter_verbosity)
 _set_verbosity = inspect.unwrap(MeshSet.set_verbosity)
-_id_of = inspect.unwrap(pymeshlab.Mesh.id)
 
 # The id that no layer has.
 NO_LAYER = -1
@@ -61,22 +61,22 @@ ERRORS: tuple[type[Exception], ...] = (
     pymeshlab.MissingCompactnessException,
 )
 
-Value = TypeVar("Value")
+T = TypeVar("T")
 
 
-class PerSet(Generic[Value]):
-    """A value for each `MeshSet`, or `Mesh`, told apart by identity, whatever it calls equal."""
+class PerSet(Generic[T]):
+    """A value for each `MeshSet` or `Mesh`, by identity."""
 
-    def __init__(self, default: Value) -> None:
+    def __init__(self, default: T) -> None:
         self._default = default
-        self._values: dict[int, Value] = {}
+        self._values: dict[int, T] = {}
 
-    def get(self, ms: MeshSet | pymeshlab.Mesh) -> Value:
+    def get(self, ms: MeshSet | pymeshlab.Mesh) -> T:
         """The value of `ms`, or the default."""
         return self._values.get(id(ms), self._default)
 
-    def put(self, ms: MeshSet | pymeshlab.Mesh, value: Value) -> None:
-        """Set the value of `ms`; it goes when the set goes."""
+    def put(self, ms: MeshSet | pymeshlab.Mesh, value: T) -> None:
+        """Set the value of `ms`; it is dropped with the set."""
         if id(ms) not in self._values:
             weakref.finalize(ms, self._values.pop, id(ms), None).atexit = False
         self._values[id(ms)] = value
@@ -84,34 +84,19 @@ class PerSet(Generic[Value]):
 
 def apply(ms: MeshSet, name: str, /, **given: Any) -> dict[str, Any]:
     """Apply a native filter."""
-    with spoken(ms):
+    with in_order_if_verbose(ms):
         return _apply_filter(ms, name, **given)
-
-
-def defaults(ms: MeshSet, name: str, /, **given: Any) -> dict[str, Any]:
-    """The parameters of a native filter: the given ones, and the defaults for the set."""
-    return _filter_parameter_values(ms, name, **given)
-
-
-def clear(ms: MeshSet) -> None:
-    """Empty the set; ids start again at 0."""
-    _clear(ms)
 
 
 def load(ms: MeshSet, path: Path) -> None:
     """Load a mesh as a new layer, which becomes the current one.
 
-    The working folder is none of the mesh meanwhile: PyMeshLab looks for textures there first.
+    Meanwhile the working folder is the root: PyMeshLab looks for textures there first.
     """
     absolute = path.absolute()
     with kept_working_folder():
         os.chdir(absolute.anchor)
         _load_new_mesh(ms, str(absolute))
-
-
-def add(ms: MeshSet, mesh: pymeshlab.Mesh, label: str = "") -> None:
-    """Add a copy of `mesh` as a new layer, which becomes the current one."""
-    _add_mesh(ms, mesh, label)
 
 
 def make_current(ms: MeshSet, mesh_id: int | None) -> None:
@@ -127,34 +112,9 @@ def current_id(ms: MeshSet) -> int | None:
         return None
 
 
-def current_mesh(ms: MeshSet) -> pymeshlab.Mesh:
-    """The current layer."""
-    return _current_mesh(ms)
-
-
-def mesh(ms: MeshSet, mesh_id: int) -> pymeshlab.Mesh:
-    """The layer of an id."""
-    return _mesh(ms, mesh_id)
-
-
-def is_there(ms: MeshSet, mesh_id: int) -> bool:
-    """Whether there is a layer of that id."""
-    return _mesh_id_exists(ms, mesh_id)
-
-
-def show(ms: MeshSet, mesh_id: int, visible: bool) -> None:
-    """Make a layer visible or not."""
-    _set_mesh_visibility(ms, mesh_id, visible)
-
-
 def ids(ms: MeshSet) -> list[int]:
     """The ids of all layers, in PyMeshLab's order."""
     return [id_of(layer) for layer in _iterate(ms)]
-
-
-def id_of(layer: pymeshlab.Mesh) -> int:
-    """The id of a layer."""
-    return _id_of(layer)
 
 
 @contextmanager
@@ -171,7 +131,7 @@ def kept_working_folder() -> Iterator[None]:
         finally:
             os.chdir(folder)
         return
-    # By a descriptor it is found again under another name too, and without leave to read it.
+    # A descriptor finds the folder also after it was renamed, and needs no right to read it.
     descriptor = os.open(".", getattr(os, "O_PATH", os.O_RDONLY))
     try:
         yield
@@ -227,23 +187,18 @@ def script_listing(path: Path) -> str:
     return printed(lambda: _print_filter_script(ms))
 
 
-def clear_script(ms: MeshSet) -> None:
-    """Forget the steps of the set's filter script."""
-    _clear_filter_script(ms)
-
-
 def _script(ms: MeshSet, path: Path) -> bytes:
     """The filter script of `ms` as XML, which stays at `path`."""
     _save_filter_script(ms, str(path))
     script = path.read_bytes() if path.exists() else b""
-    # PyMeshLab does not tell when it can't write.
+    # PyMeshLab reports no error if it can't write.
     if not script.rstrip().endswith(_WHOLE_SCRIPT):
         raise OSError(f"the filter script could not be written to {path.parent}; is the disk full?")
     return script
 
 
 class Verbosity(NamedTuple):
-    """What a set prints: `all` of a filter's doings (None: nobody said), or `parameters` only."""
+    """What a set prints: `all` that filters report (None: not set), or their `parameters` only."""
 
     all: bool | None = None
     parameters: bool = False
@@ -251,12 +206,12 @@ class Verbosity(NamedTuple):
 
 _SILENT = (Verbosity(), Verbosity(all=False))
 
-# PyMeshLab has no way to ask, so `register` notes what it is told.
+# PyMeshLab has no getter for it, so `register` notes what is set.
 _verbosity: PerSet[Verbosity] = PerSet(Verbosity())
 
 
 def note_verbosity(ms: MeshSet, **changes: bool) -> None:
-    """Remember that `ms` was told to print more or less; `changes` are fields of `Verbosity`."""
+    """Remember what `ms` was set to print; `changes` are fields of `Verbosity`."""
     _verbosity.put(ms, verbosity(ms)._replace(**changes))
 
 
@@ -282,7 +237,7 @@ def _quiet(ms: MeshSet) -> Iterator[None]:
 
 @contextmanager
 def muted() -> Iterator[None]:
-    """PyMeshLab's C++ side prints nothing inside, not even what no verbosity controls."""
+    """PyMeshLab's C++ side prints nothing inside, including what no verbosity controls."""
     with open(os.devnull, "wb") as sink, _redirected((1, 2), sink):
         yield
 
@@ -298,9 +253,9 @@ def printed(call: Callable[[], object]) -> str:
 
 @contextmanager
 def _redirected(descriptors: Iterable[int], sink: IO[bytes]) -> Iterator[None]:
-    """What goes to some descriptors goes into a file, for the while of one short call.
+    """Redirect file descriptors into a file during one short call.
 
-    PyMeshLab's streams don't ask Python.
+    PyMeshLab's C++ streams don't go through Python's.
     """
     with contextlib.ExitStack() as stack:
         _flush_c_streams()
@@ -317,10 +272,7 @@ def _redirected(descriptors: Iterable[int], sink: IO[bytes]) -> Iterator[None]:
 
 @contextmanager
 def overheard(ms: MeshSet) -> Iterator[list[str]]:
-    """PyMeshLab prints nothing inside; afterwards, the list holds the lines that it would have.
-
-    They are those of a verbose set.
-    """
+    """PyMeshLab prints nothing inside; afterwards the list holds the lines of a verbose set."""
     lines: list[str] = []
     # The parameters of a call are printed by Python.
     with tempfile.TemporaryFile() as sink, contextlib.redirect_stdout(io.StringIO()):
@@ -335,7 +287,7 @@ def overheard(ms: MeshSet) -> Iterator[list[str]]:
 
 
 class _InTurn:
-    """Python's standard output, while C's is printed to as well: neither waits in a buffer."""
+    """Python's standard output, flushed in turn with C's."""
 
     def __init__(self, stream: IO[str]) -> None:
         self._stream = stream
@@ -352,10 +304,10 @@ class _InTurn:
 
 @contextmanager
 def in_order() -> Iterator[None]:
-    """What is printed inside, by Python or by PyMeshLab, comes between what is before and after.
+    """What Python and PyMeshLab print inside comes in order, also with what is before and after.
 
-    PyMeshLab prints to C's standard output, and some of it to Python's: in a pipe both wait until
-    a buffer is full.
+    PyMeshLab prints to C's standard output, and some of it to Python's: in a pipe both are
+    buffered.
     """
     _flush()
     out: Any = sys.stdout and _InTurn(sys.stdout)
@@ -367,8 +319,8 @@ def in_order() -> Iterator[None]:
 
 
 @contextmanager
-def spoken(ms: MeshSet) -> Iterator[None]:
-    """The same, where `ms` was told to print what it does."""
+def in_order_if_verbose(ms: MeshSet) -> Iterator[None]:
+    """As `in_order`, if `ms` is verbose."""
     if verbosity(ms) in _SILENT:
         yield
         return

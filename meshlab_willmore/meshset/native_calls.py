@@ -54,7 +54,7 @@ def mesh(before: Callable, ms: MeshSet, id: int) -> pymeshlab.Mesh:
 
 
 def current_mesh(before: Callable, ms: MeshSet) -> pymeshlab.Mesh:
-    """The current layer, which tells its logical id."""
+    """The current layer, whose id is logical from now on."""
     return _noted(ms, before(ms))
 
 
@@ -100,7 +100,7 @@ def _physical_or_error(ms: MeshSet, given: Any) -> Any:
 
 
 def _noted(ms: MeshSet, mesh: pymeshlab.Mesh) -> pymeshlab.Mesh:
-    """The object, which from now on tells its logical id."""
+    """The object, whose id is logical from now on."""
     ids.note(ms, mesh)
     return mesh
 
@@ -155,7 +155,7 @@ def prepared(ms: MeshSet, name: object, given: dict[str, Any]) -> Iterator[dict[
 def parameter_values(
     before: Callable, ms: MeshSet, name: str, given: dict[str, Any]
 ) -> dict[str, Any]:
-    """The parameters of a native filter as `before` tells them, with logical ids."""
+    """The parameters of a native filter with logical ids."""
     with prepared(ms, name, given) as called:
         values = before(ms, name, **called)
     return {**values, **logical_ids(ms, name, values)}
@@ -260,7 +260,7 @@ def print_status(before: Callable, ms: MeshSet) -> None:
 
 def save_project(before: Callable, ms: MeshSet, file_name: str | bytes) -> None:
     """Save a project, with the layers in the order of their logical ids."""
-    with native.kept_working_folder(), native.spoken(ms):
+    with native.kept_working_folder(), native.in_order_if_verbose(ms):
         before(ms, file_name)
     path = Path(os.fsdecode(file_name))
     if not (ids.has_moved(ms) and path.is_file()):

@@ -6,7 +6,7 @@ name is MeshLab's source of that month. Entries are:
 
 filters
     A filter's old name and today's, and parameters that have to be `given` for the same meaning.
-    Where one filter became several, `by` is the parameter that tells which one was meant.
+    Where one filter became several, `by` is the parameter that says which one was meant.
 params
     A parameter's old name, its type then, and today's name (null: it is gone, and did nothing
     where its value is the `idle` one). `as` says how the value changes: `times` a number, that
@@ -61,7 +61,7 @@ class OldFilter(NamedTuple):
     Attributes
     ----------
     targets : tuple of Target
-        What it is today; more than one where a parameter tells which.
+        What it is today; more than one if a parameter decides.
     by : str
         The parameter that does; its value is the index of the target.
     note : str
@@ -309,9 +309,9 @@ class Migration:
         for old in choices:
             then = {f"enum_val{i}": name for i, name in enumerate(old.old)}
             fits = details.get("enum_cardinality", "").strip() == str(len(then))
-            # Without names, only another number of choices tells.
-            tells = bool(names) or len(then) != len(own.choices)
-            if fits and tells and names.items() <= then.items() and param.value < len(then):
+            # Without names, only another number of choices decides.
+            decides = bool(names) or len(then) != len(own.choices)
+            if fits and decides and names.items() <= then.items() and param.value < len(then):
                 self._is_of(old.until)
                 return self._renumbered(own, param, param.value, old)
         return param

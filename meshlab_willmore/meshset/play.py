@@ -1,7 +1,7 @@
 """Running the checked steps of a filter script on a set of meshes.
 
-Native steps are run by PyMeshLab's own filter functions, with the script's values. (PyMeshLab could
-run a script in one go, but would tell neither what a step returned nor which one failed.)
+Native steps are run by PyMeshLab's own filter functions, with the script's values. (PyMeshLab can
+run a whole script, but does not report what a step returned or which one failed.)
 """
 
 from __future__ import annotations
@@ -98,7 +98,7 @@ def _play_one(ms: MeshSet, call: Call, source: str) -> Played:
             returned = apply(ms, BY_NAME[name], values_of(ms, BY_NAME[name], given))
         else:
             if call.known.needs_mesh and native.ids(ms):
-                # Where none is current, this raises; PyMeshLab's filters would crash.
+                # Without a current mesh this raises, and PyMeshLab's filters would crash.
                 native.current_mesh(ms)
             with native_calls.prepared(ms, name, given) as completed:
                 returned = native.apply(ms, name, **completed)
@@ -112,7 +112,7 @@ def _play_one(ms: MeshSet, call: Call, source: str) -> Played:
 
 
 def _reason(error: Exception, call: Call) -> str:
-    """The message without markup, and without what PyMeshLab puts before it: the step is named."""
+    """The message without markup and without PyMeshLab's prefix, since the step is named."""
     name, given = call.known.name, call.given.values()
     text = str(error)
     for start in (f"Failed to apply filter: {name}", f"Failed to apply filter:  '{name}."):

@@ -1,8 +1,8 @@
-"""The binary PLY that MeshLab writes, as NumPy records: read, change, write.
+"""Reading and writing the binary PLY of MeshLab as NumPy records.
 
-PLY is the one door through which PyMeshLab passes a mesh whole: flags (selection, faux edges),
-several textures with an index per face, radii. Only what MeshLab's own writer emits for a
-triangle mesh is understood here: little-endian, scalar properties, and lists of one fixed length.
+Only by PLY does PyMeshLab import and export a mesh as a whole: with flags (selection, faux edges),
+several textures with an index per face, and radii. The module reads what MeshLab's own writer
+writes of a triangle mesh: little-endian scalar properties, and lists of one fixed length.
 """
 
 from __future__ import annotations
@@ -90,7 +90,7 @@ def read(path: Path) -> PlyMesh:
 
 
 def _header(file: BinaryIO) -> list[str]:
-    """The lines of the header; the file stands at the first element afterwards."""
+    """The lines of the header; afterwards the file is at the first element."""
     lines: list[str] = []
     for line in file:
         if line == _END:

@@ -1,8 +1,8 @@
-"""The filter script of a set, with our filters in their place among the native steps.
+"""The filter script of a set, with our steps among the native ones.
 
-PyMeshLab records native steps itself, and its script can hold no other: they stay there, as it
-writes them. What is noted here is the place of our steps between them, and the ids of layers that
-native steps were called with, where our filters have shifted them (see `ids`).
+PyMeshLab records native steps itself, and its script can hold no others. Recorded here are our
+steps, their places among the native ones, and the logical ids of layers that native steps were
+called with, where our filters have shifted the ids (see `ids`).
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def holds_more(ms: MeshSet) -> bool:
 
 def steps_of(ms: MeshSet) -> tuple[Step, ...]:
     """All steps of the script of `ms`."""
-    # What stands there has run, whatever it looks like.
+    # These steps have run, so they are not checked.
     recorded = read_bytes(native.script_of(ms), _UNNAMED, strict=False)
     remaining = iter(recorded)
     entries = _in_step(_entries.get(ms) or [], len(recorded))
@@ -61,12 +61,12 @@ def put(ms: MeshSet, steps: Iterable[Step], source: str) -> None:
 
 
 def source_of(ms: MeshSet) -> str:
-    """What to call the script of `ms`: the file that it was loaded from, if it holds ours."""
+    """The name of the script of `ms`: the file that it was loaded from, if it holds ours."""
     return _sources.get(ms)
 
 
 def forget(ms: MeshSet) -> None:
-    """Forget what was noted: PyMeshLab's own script was cleared, or filled by another."""
+    """Forget what was recorded: PyMeshLab's own script was cleared, or replaced."""
     if _sources.get(ms) != _UNNAMED:
         _sources.put(ms, _UNNAMED)
     if _entries.get(ms):
@@ -74,15 +74,15 @@ def forget(ms: MeshSet) -> None:
 
 
 def our_script(path: str) -> tuple[Step, ...] | None:
-    """The steps of a file that needs this package; None for what is PyMeshLab's to load.
+    """The steps of a file that needs this package; None for a script that PyMeshLab can load.
 
-    That is a script that holds one of our filters, or can be run but has old names. What comes out
-    of a pipe PyMeshLab could not read once more.
+    This package is needed for scripts with our filters, for those that can be run but have old
+    names, and for pipes, which can be read only once.
 
     Raises
     ------
     ScriptError
-        If the file names one of our filters, but can't be read, or what a pipe gives can't.
+        If a file that names one of our filters can't be read, or a pipe can't.
     """
     is_pipe = _is_pipe(path)
     try:
@@ -105,7 +105,7 @@ def _is_pipe(path: str) -> bool:
 
 
 def _is_ours_to_run(steps: tuple[Step, ...]) -> bool:
-    """Whether steps can be run, but not by PyMeshLab, which knows no names but today's."""
+    """Whether steps can be run, but not by PyMeshLab, which knows only today's names."""
     return not all(map(is_todays, steps)) and not faults_of(steps)
 
 
@@ -122,7 +122,7 @@ def _names_ours(path: str) -> bool:
 
 
 def catch_up(ms: MeshSet) -> None:
-    """Make the place after all native steps so far the one for the next step of ours.
+    """Make room for the next step of ours after all native steps so far.
 
     Raises
     ------

@@ -2,7 +2,7 @@
 
 PyMeshLab's methods all end in ``MeshSet.apply_filter``, and its lists come from four functions:
 replacing these makes our filters known wherever the native ones are. What counts the layers of a
-set, iterates over them, or takes or tells ids is replaced as well, see `native_calls`. Functions
+set, iterates over them, or takes or returns ids is replaced as well, see `native_calls`. Functions
 here that replace another get it as `before`.
 """
 
@@ -163,12 +163,12 @@ def _apply_filter(before: Callable, ms: MeshSet, /, *args: Any, **given: Any) ->
         recording.note_ours(ms, filter_, values)
         return returned
     if not ids.has_moved(ms):
-        with native.spoken(ms):
+        with native.in_order_if_verbose(ms):
             returned = before(ms, *args, **given)
         recording.note_native(ms, recording.NO_IDS)
         return returned
     name = args[0] if args else given.get("filter_name")
-    with native_calls.prepared(ms, name, given) as called, native.spoken(ms):
+    with native_calls.prepared(ms, name, given) as called, native.in_order_if_verbose(ms):
         returned = before(ms, *args, **called)
     recording.note_native(ms, native_calls.logical_ids(ms, name, called))
     return returned
@@ -221,7 +221,7 @@ def _as_before(before: Callable, *args: Any) -> None:
 
 def _file_method(before: Callable, ms: MeshSet, *args: Any, **kwargs: Any) -> None:
     """PyMeshLab's own, which leaves the working folder as it is also where it fails."""
-    with native.kept_working_folder(), native.spoken(ms):
+    with native.kept_working_folder(), native.in_order_if_verbose(ms):
         before(ms, *args, **kwargs)
 
 
@@ -232,7 +232,7 @@ def _apply_filter_script(before: Callable, ms: MeshSet) -> None:
     layers.sweep(ms)
     # PyMeshLab would go by its own ids and order, and reach parked layers.
     if not recording.holds_more(ms) and not ids.has_moved(ms):
-        with native.spoken(ms):
+        with native.in_order_if_verbose(ms):
             before(ms)
         return
     with _as_pymeshlab_error():

@@ -1,8 +1,7 @@
-"""Writing numbers into the vertex scalar of a mesh inside a set.
+"""Writing an array into the vertex scalar of a mesh inside a set.
 
-PyMeshLab has no function for it, so native filters bring the numbers in place: a helper layer hands
-them over. It takes an id of the set, and leaves nothing else behind. A custom attribute would be
-quicker, but could never be removed again.
+PyMeshLab has no function for it, so a native filter transfers the values from a helper layer, which
+uses up an id of the set. A custom attribute would be quicker, but can't be removed again.
 """
 
 from __future__ import annotations
@@ -46,10 +45,9 @@ def _check_size(vertices: np.ndarray) -> None:
 
 
 def _transfer(ms: MeshSet, scalar: np.ndarray) -> None:
-    """Give each vertex the value of the nearest point of a helper layer: of itself.
+    """Give each vertex the value of the nearest vertex of a helper layer, which is its copy.
 
-    The transfer moves both layers by their transforms and back, which costs last digits: it runs
-    without one.
+    The transfer would apply both transforms and undo them, with rounding: it runs without them.
     """
     target = native.id_of(native.current_mesh(ms))
     transform = ms.current_mesh().transform_matrix()
@@ -80,7 +78,7 @@ def _transfer(ms: MeshSet, scalar: np.ndarray) -> None:
 
 
 def _correct(ms: MeshSet, scalar: np.ndarray) -> None:
-    """Set one by one what the transfer mixed up: vertices in the same place."""
+    """Set the values that the transfer mixed up: of vertices at the same position."""
     wrong = np.flatnonzero(ms.current_mesh().vertex_scalar_array() != scalar)
     for start in range(0, len(wrong), _VALUES_PER_FUNCTION):
         part = wrong[start : start + _VALUES_PER_FUNCTION]
@@ -89,7 +87,7 @@ def _correct(ms: MeshSet, scalar: np.ndarray) -> None:
 
 
 def _function_of_index(indices: np.ndarray, values: np.ndarray) -> str:
-    """A function of MeshLab's that is values[p] at vertex indices[p], elsewhere the scalar."""
+    """A MeshLab function with values[p] at vertex indices[p], and the scalar elsewhere."""
     if len(indices) == 1:
         return f"(vi=={indices[0]}?{float(values[0])!r}:q)"
     middle = len(indices) // 2

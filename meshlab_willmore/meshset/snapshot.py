@@ -1,9 +1,8 @@
-"""All that PyMeshLab shows of a mesh, read at once.
+"""Snapshot of a mesh: everything that PyMeshLab shows of it.
 
-The mesh comes as PyMeshLab's own PLY (see `ply`): its methods tell nothing of faux or selected
-edges, texture indices or radii, not even whether there are any (`polygonal_face_list` takes three
-times as long as the file). Custom attributes are read by the methods of `Mesh`, under their real
-names.
+The mesh is read from PyMeshLab's own PLY (see `ply`): no method gives faux or selected edges,
+texture indices or radii, nor whether there are any (`polygonal_face_list` takes three times as long
+as the file). Custom attributes are read by the methods of `Mesh`, under their real names.
 """
 
 from __future__ import annotations
@@ -48,14 +47,14 @@ ATTRIBUTE_METHODS = {
 
 
 class Snapshot(NamedTuple):
-    """All that PyMeshLab shows of a mesh.
+    """Everything that PyMeshLab shows of a mesh.
 
     Attributes
     ----------
     ply : PlyMesh
         Positions, faces, flags, colours, scalars, radii, texture coordinates, names of textures.
     normals : (n, 3) float64 ndarray
-        The normals of the vertices, as they are.
+        The vertex normals.
     attributes : list of Attribute
         The custom attributes.
     images : dict of str to pymeshlab.Image
@@ -63,7 +62,7 @@ class Snapshot(NamedTuple):
     identity : layers.Identity
         Label, visibility and transform.
     unsupported : list of str
-        What the mesh has and PyMeshLab offers no way to put back, as phrases.
+        Data of the mesh that PyMeshLab can't put on a new one, as phrases.
     """
 
     ply: ply.PlyMesh
@@ -132,12 +131,12 @@ def take(ms: pymeshlab.MeshSet) -> Snapshot:
     if len(attributes) < len(attribute_keys):
         unsupported.append("custom attributes with odd names")
     normals = mesh.vertex_normal_matrix()
-    return Snapshot(records, normals, attributes, images, layers.identity(mesh), unsupported)
+    return Snapshot(records, normals, attributes, images, layers.identity_of(mesh), unsupported)
 
 
 @contextmanager
 def _copied(mesh: pymeshlab.Mesh) -> Iterator[tuple[pymeshlab.MeshSet, Path]]:
-    """A copy of `mesh` in a set of its own, and a folder; saving renames the file of a mesh."""
+    """A copy of `mesh` in a set of its own, whose file name saving may change, and a folder."""
     with temporary_folder(_least_size(mesh)) as folder:
         copy = pymeshlab.MeshSet()
         copy.add_mesh(mesh, "copy")
@@ -177,8 +176,8 @@ def _attribute_names(
 ) -> list[tuple[str, str]]:
     """Kinds and real names of the attributes, which PyMeshLab shows only as Python names.
 
-    The header of a PLY has the real ones; all elements go first, for PyMeshLab crashes when it
-    writes the values of copied attributes. `copy` is empty afterwards.
+    The header of a PLY has the real ones. All elements are deleted before, since PyMeshLab crashes
+    when it writes the values of copied attributes; `copy` is empty afterwards.
     """
     if not keys:
         return []
@@ -187,7 +186,7 @@ def _attribute_names(
     path = folder / "attributes.ply"
     copy.save_current_mesh(str(path), save_textures=False, **dict.fromkeys(keys, True))
     header = path.read_bytes().decode("utf-8", "surrogateescape")
-    # A dict for its order: an attribute called x stands in the header beside the coordinate.
+    # A dict is an ordered set: an attribute called x has the name of the coordinate in the header.
     names: dict[tuple[str, str], None] = {}
     element = ""
     for line in header.split("\n"):
@@ -219,7 +218,7 @@ def _lost_digits(records: ply.PlyMesh) -> Iterator[str]:
 
 def _lost_names(textures: tuple[str, ...], images: dict[str, pymeshlab.Image]) -> Iterator[str]:
     missing = [n for n in dict.fromkeys(textures) if n not in images or not has_pixels(images[n])]
-    # Where all are, the mesh is carried in another way.
+    # If all are missing, the mesh is loaded in another way.
     if missing and any(map(has_pixels, images.values())):
         yield f"the names of textures without an image ({', '.join(missing)})"
     odd = [name for name in textures if name != plain_name(name)]
@@ -228,21 +227,21 @@ def _lost_names(textures: tuple[str, ...], images: dict[str, pymeshlab.Image]) -
 
 
 def has_pixels(image: pymeshlab.Image) -> bool:
-    """Whether an image has any size: layers that were split off have textures without one."""
+    """Whether an image has any size; layers that a filter split off have textures without."""
     return image.width() > 0 and image.height() > 0
 
 
 def plain_name(name: str) -> str:
-    """`name` in the characters that PyMeshLab's PLY reader knows, others in percent encoding.
+    """`name` with what PyMeshLab's PLY reader can't read in percent encoding.
 
-    It has the length that a file's name can have at most.
+    It is cut to the longest name that a file can have.
     """
     plain = re.sub("[^!-|]|%", lambda odd: "".join(f"%{b:02X}" for b in odd[0].encode()), name)
     return plain if len(PurePosixPath(plain).name) <= _LONGEST_NAME else plain[-_LONGEST_NAME:]
 
 
 def is_set_by_filter(names: tuple[str, ...]) -> bool:
-    """Whether the only texture must and can be named by a filter, not in the PLY."""
+    """Whether the name of the only texture must be set by a filter, as the PLY can't hold it."""
     return len(names) == 1 and names[0] != plain_name(names[0]) and "/" not in names[0]
 
 

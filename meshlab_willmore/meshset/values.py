@@ -1,4 +1,4 @@
-"""A script's parameter as a value of the filter's own type."""
+"""Converts a script's parameter to a value of the filter's own type."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from ..mlx import rich
 from ..mlx.steps import Param, Percentage, Value, quoted
 from .filter_info import ParamInfo
 
-# MeshLab keeps values of one kind for types that it writes differently; between two kinds it reads
-# zero, or an empty text.
+# MeshLab stores several types as the same kind of value; a value of another kind is read as zero or
+# an empty text.
 _KINDS = {
     "RichBool": "switch",
     "RichInt": "whole number",
@@ -50,7 +50,7 @@ def value_of(param: Param, own: ParamInfo) -> Value:
     Raises
     ------
     ValueError
-        If it is none, or PyMeshLab would take it for another.
+        If it has no such value, or PyMeshLab would read another one.
     """
     if isinstance(param.value, Percentage) and own.type != "RichAbsPerc":
         raise ValueError(f"can't be a percentage: a {own.type} has no range; give a number")
@@ -66,7 +66,7 @@ def value_of(param: Param, own: ParamInfo) -> Value:
 
 
 def _needed(param: Param, own: ParamInfo) -> tuple[tuple[str, str], ...]:
-    """A range and the like, which nobody has looked at yet where the type is another, or none."""
+    """Details such as a range, which are not checked yet if the script has another type or none."""
     if param.type == own.type or own.choices:
         return ()
     needs = rich.rich_type(own.type).needs
@@ -87,7 +87,7 @@ def _typed(param: Param, own: ParamInfo) -> Value:
 
 
 def mismatch(param: Param, own: ParamInfo) -> str | None:
-    """What to say if a parameter's type is one that PyMeshLab misreads for the filter's own."""
+    """The message if PyMeshLab would misread the parameter's type for the filter's own."""
     kind = _KINDS.get(param.type)
     if kind is None or kind == _KINDS[own.type]:
         return None

@@ -25,7 +25,7 @@ def test_an_interrupt_waits_until_the_set_is_whole(bumpy):
         target.add_mesh(pymeshlab.Mesh(*meshes.octahedron()))
         order.append("loaded")
 
-    who = layers.identity(bumpy.current_mesh())
+    who = layers.identity_of(bumpy.current_mesh())
     with pytest.raises(KeyboardInterrupt):
         layers.replace_current(bumpy, load, load, who)
     assert order == ["loaded"]

@@ -43,11 +43,9 @@ def find(name: str) -> FilterInfo | None:
     old scripts that act on the set are found as well.
     """
     name = old_names.plain(name)
-    if name in BY_NAME:
-        return _ours(BY_NAME[name])
-    ours = next((f for f in FILTERS if f.meshlab_name == name), None)
-    if ours is not None:
-        return _ours(ours)
+    for filter_ in FILTERS:
+        if name in (filter_.name, filter_.meshlab_name):
+            return _of_filter(filter_)
     if name in _recorded():
         return _native(name)
     today = _by_meshlab_name().get(name) or _before(name) or _new_name(name)
@@ -66,9 +64,9 @@ def _before(name: str) -> str | None:
 def closest(name: str) -> list[str]:
     """Up to three filter names that resemble `name`: MeshLab's or PyMeshLab's, the nearer ones."""
     known = (*everything(), *map(_of_document, document.STEPS))
-    meshlab, ours = [k.meshlab_name for k in known if k.meshlab_name], [k.name for k in known]
+    meshlab, python = [k.meshlab_name for k in known if k.meshlab_name], [k.name for k in known]
     return max(
-        (similar(name, names) for names in (meshlab, ours)),
+        (similar(name, names) for names in (meshlab, python)),
         key=lambda found: _likeness(name, found[0]) if found else 0.0,
     )
 
@@ -85,7 +83,7 @@ def similar(word: str, names: Iterable[str]) -> list[str]:
 def everything() -> tuple[FilterInfo, ...]:
     """All filters that the installed PyMeshLab has, and ours, sorted by PyMeshLab's name."""
     natives = (_native(name) for name in _there())
-    return tuple(sorted((*natives, *map(_ours, FILTERS)), key=lambda known: known.name))
+    return tuple(sorted((*natives, *map(_of_filter, FILTERS)), key=lambda known: known.name))
 
 
 def missing() -> tuple[FilterInfo, ...]:
@@ -195,11 +193,11 @@ def _of_document(step: DocumentStep) -> FilterInfo:
     return FilterInfo(step.name, step.meshlab_names[0], step.params, False, False, step.summary)
 
 
-# --- ours --------------------------------------------------------------------------------------
+# --- filters of this package --------------------------------------------------------------------
 
 
 @functools.cache
-def _ours(filter_: Filter) -> FilterInfo:
+def _of_filter(filter_: Filter) -> FilterInfo:
     params = tuple(
         ParamInfo(p.name, p.name, "RichEnum" if p.choices else _TYPES[p.type], p.choices, False)
         for p in filter_.parameters

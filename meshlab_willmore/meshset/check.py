@@ -166,15 +166,15 @@ def in_todays_form(call: Call, step: Step) -> Step:
             details = tuple(
                 pair for pair in call.details[keyword] if pair[0] not in _OLD_ATTRIBUTES
             )
-            params.append(Param(known.name, known.type, value, _with_choices(known, details)))
+            params.append(Param(known.name, known.type, value, with_choices(known, details)))
     # The MeshLab name of a plugin that the user brought is not known.
     return step._replace(filter=call.known.meshlab_name or step.filter, params=tuple(params))
 
 
-def _with_choices(
+def with_choices(
     known: ParamInfo, details: tuple[tuple[str, str], ...]
 ) -> tuple[tuple[str, str], ...]:
-    """The details, with the names of an enum's choices as they are today."""
+    """The details of a parameter, with the names of an enum's choices as they are today."""
     if not known.choices:
         return details
     names = [(f"enum_val{i}", choice) for i, choice in enumerate(known.choices)]
@@ -204,9 +204,13 @@ class _Checker:
         # At most how new the script is, by the old names in it; see `old_names.age`.
         self._age: int | None = None
         self._checked: list[tuple[int, Step, Call]] = []
+        # The step that is being checked.
+        self._number = 0
+        self._step = Step("")
 
     def calls(self, number: int, step: Step, gap: Gap) -> list[Call]:
         """The call of one step; none if there is no such filter."""
+        self._number, self._step = number, step
         if gap.follows_unread:
             self._may_be_more = True
         old = old_names.filter_of(step.filter)
@@ -215,35 +219,35 @@ class _Checker:
         if known is None or not known.available:
             if not gap.is_nameless:
                 problem = _absent(step.filter) if known is None else _unavailable(known)
-                self._add(number, step, problem)
+                self._add(problem)
             self._may_be_more = True
             return []
         if known.needs_mesh and self._is_empty():
-            self._add(number, step, _NO_MESH)
+            self._add(_NO_MESH)
             self._may_be_more = True
-        self._warn_of_name(number, step, known)
+        self._warn_of_name(known)
         migration = Migration(step, known, target.given if target else {}, old.by if old else "")
         self._age = old_names.older(self._age, migration.age)
         for remark in migration.problems:
-            self._add(number, step, remark.text, remark.shown)
+            self._add(remark.text, remark.shown)
         for remark in migration.remarks:
-            self._warn(number, step, remark)
+            self._warn(remark)
         call = Call(number, known, {}, {})
-        for item, own in self._params(number, step, known, migration, gap):
-            self._take(call, step, item, own)
+        for item, own in self._params(known, migration, gap):
+            self._take(call, item, own)
         self._may_be_more = self._may_be_more or known.makes_layers
         self._left -= known.name == _DELETE
         self._checked.append((number, step, call))
         return [call]
 
-    def _take(self, call: Call, step: Step, item: Given, own: ParamInfo) -> None:
+    def _take(self, call: Call, item: Given, own: ParamInfo) -> None:
         """Put a parameter's value into a call, or add the fault."""
         try:
             value = value_of(item.param, own)
             _check_range(call.known, own, value)
             self._check_id(own, value)
         except ValueError as error:
-            self._add(call.number, step, str(error), item.shown)
+            self._add(str(error), item.shown)
             return
         # PyMeshLab takes no cameras from scripts, and writes none: it is empty.
         if own.type != "RichShotf":
@@ -251,47 +255,48 @@ class _Checker:
             call.details[own.keyword] = item.param.details
 
     def _params(
-        self, number: int, step: Step, known: FilterInfo, migration: Migration, gap: Gap
+        self, known: FilterInfo, migration: Migration, gap: Gap
     ) -> Iterator[tuple[Given, ParamInfo]]:
         """The parameters that the filter has, each once."""
         seen: dict[str, str] = {}
         for item in migration.given:
             own = known.param(item.param.name)
             if own is None:
-                self._add(number, step, _no_parameter(known, item.shown), item.shown)
+                self._add(_no_parameter(known, item.shown), item.shown)
             elif own.keyword in seen:
                 first = seen[own.keyword]
                 also = "" if first == item.shown else f", also as {quoted(first)}"
-                self._add(number, step, f"is given twice{also}", item.shown)
+                self._add(f"is given twice{also}", item.shown)
             else:
                 seen[own.keyword] = item.shown
                 if item.shown in gap.untyped:
                     text = f"has no type; it is read as {own.type}, the filter's own"
-                    self._warn(number, step, Remark(item.shown, text))
+                    self._warn(Remark(item.shown, text))
                 yield item, own
-        self._check_broken(number, step, known, gap)
+        self._check_broken(known, gap)
         unread = {own.keyword for param in gap.broken if (own := known.param(param.name))}
         lost = {remark.shown for remark in migration.problems}
         for own in known.params:
             if own.required and own.keyword not in {*seen, *unread} and not (gap.is_cut or lost):
-                self._add(number, step, "is missing; the filter can't do without it", own.name)
+                self._add("is missing; the filter can't do without it", own.name)
 
-    def _check_broken(self, number: int, step: Step, known: FilterInfo, gap: Gap) -> None:
+    def _check_broken(self, known: FilterInfo, gap: Gap) -> None:
         """Add what else is wrong with parameters whose values can't be read."""
         for param in gap.broken:
             own = known.param(old_names.plain(param.name))
             if own is not None:
                 if problem := mismatch(param, own):
-                    self._add(number, step, problem, param.name)
+                    self._add(problem, param.name)
             elif not old_names.params_of(known.name, param.name):
-                self._add(number, step, _no_parameter(known, param.name), param.name)
+                self._add(_no_parameter(known, param.name), param.name)
 
     # --- warnings ------------------------------------------------------------------------------
 
-    def _warn_of_name(self, number: int, step: Step, known: FilterInfo) -> None:
+    def _warn_of_name(self, known: FilterInfo) -> None:
+        step = self._step
         if step.filter in (known.name, known.meshlab_name):
             if document.is_step(known.name):
-                self._warn(number, step, Remark("", "MeshLab has no such step any more"))
+                self._warn(Remark("", "MeshLab has no such step any more"))
             return
         old = old_names.filter_of(step.filter)
         today = known.meshlab_name or known.name
@@ -300,28 +305,32 @@ class _Checker:
         text += f"{today!r} in today's MeshLab"
         if old and old.note:
             text += f": {old.note}"
-        self._warn(number, step, Remark("", text, changes_result=bool(old and old.note)))
+        self._warn(Remark("", text, changes_result=bool(old and old.note)))
         if old:
             self._age = old_names.older(self._age, old_names.age(old.until))
 
     def warn_of_defaults(self) -> None:
         """Warn of defaults that have changed since the script was written, if its age shows."""
-        for number, step, call in self._checked if self._age is not None else ():
+        if self._age is None:
+            return
+        for number, step, call in self._checked:
+            self._number, self._step = number, step
             for old in old_names.defaults_of(call.known.name):
                 own = call.known.param(old.param)
-                then = self._age is not None and self._age <= old_names.age(old.until)
-                if own and own.keyword not in call.given and then:
+                is_old = self._age <= old_names.age(old.until)
+                if own and own.keyword not in call.given and is_old:
                     text = (
                         f"is not given: it was {old.was} until MeshLab {old.until}, and is "
                         f"{old.now} today"
                     )
-                    self._warn(number, step, Remark(old.param, text, changes_result=True))
+                    self._warn(Remark(old.param, text, changes_result=True))
 
-    def _warn(self, number: int, step: Step, remark: Remark) -> None:
+    def _warn(self, remark: Remark) -> None:
         if len(self.warnings) < MOST_FAULTS:
-            name, shown = shortened(step.filter), shortened(remark.shown)
+            name, shown = shortened(self._step.filter), shortened(remark.shown)
             changes = remark.changes_result
-            self.warnings.append(ScriptWarning(remark.text, number, name, shown, "", changes))
+            warning = ScriptWarning(remark.text, self._number, name, shown, "", changes)
+            self.warnings.append(warning)
 
     # --- faults --------------------------------------------------------------------------------
 
@@ -339,10 +348,11 @@ class _Checker:
     def _is_empty(self) -> bool:
         return self._ids is not None and self._left <= 0 and not self._may_be_more
 
-    def _add(self, number: int, step: Step, text: str, param: str = "") -> None:
+    def _add(self, text: str, param: str = "") -> None:
         if len(self.faults) > MOST_FAULTS:
             raise _EnoughError
-        self.faults.append(Fault(text, number, shortened(step.filter), shortened(param)))
+        name = shortened(self._step.filter)
+        self.faults.append(Fault(text, self._number, name, shortened(param)))
 
 
 def _check_range(known: FilterInfo, own: ParamInfo, value: Value) -> None:

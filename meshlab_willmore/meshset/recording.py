@@ -19,7 +19,7 @@ from ..mlx.read import read, read_bytes
 from ..mlx.steps import Param, Percentage, ScriptError, Step
 from ..mlx.write import write
 from . import catalogue, native
-from .check import faults_of, is_todays, modernised
+from .check import faults_of, is_todays, modernised, with_choices
 from .filter import Filter
 from .filter_info import keyword_of
 from .filters import FILTERS
@@ -73,7 +73,7 @@ def forget(ms: MeshSet) -> None:
         _entries.put(ms, None)
 
 
-def our_script(path: str) -> tuple[Step, ...] | None:
+def script_to_load(path: str) -> tuple[Step, ...] | None:
     """The steps of a file that needs this package; None for a script that PyMeshLab can load.
 
     This package is needed for scripts with our filters, for those that can be run but have old
@@ -88,11 +88,11 @@ def our_script(path: str) -> tuple[Step, ...] | None:
     try:
         steps = read(path)
     except ScriptError:
-        if is_pipe or _names_ours(path):
+        if is_pipe or _names_willmore_filter(path):
             raise
         return None
     found = (catalogue.find(step.filter) for step in steps)
-    if is_pipe or any(known and known.is_willmore for known in found) or _is_ours_to_run(steps):
+    if is_pipe or any(known and known.is_willmore for known in found) or _has_old_names(steps):
         return modernised(steps)
     return None
 
@@ -104,12 +104,12 @@ def _is_pipe(path: str) -> bool:
         return False
 
 
-def _is_ours_to_run(steps: tuple[Step, ...]) -> bool:
+def _has_old_names(steps: tuple[Step, ...]) -> bool:
     """Whether steps can be run, but not by PyMeshLab, which knows only today's names."""
     return not all(map(is_todays, steps)) and not faults_of(steps)
 
 
-def _names_ours(path: str) -> bool:
+def _names_willmore_filter(path: str) -> bool:
     try:
         data = Path(path).read_bytes().replace(b"\0", b"")
     except (OSError, ValueError):
@@ -133,12 +133,12 @@ def catch_up(ms: MeshSet) -> None:
     _entries.put(ms, _in_step(_entries.get(ms) or [], recorded))
 
 
-def note_ours(ms: MeshSet, filter_: Filter, values: dict[str, Any]) -> None:
+def note_step(ms: MeshSet, filter_: Filter, values: dict[str, Any]) -> None:
     """Append a step of ours, which was run with these values."""
     _append(ms, _step(filter_, values))
 
 
-def note_native(ms: MeshSet, ids: Ids) -> None:
+def note_native_step(ms: MeshSet, ids: Ids) -> None:
     """Append a native step, with the logical ids that it was called with."""
     _append(ms, ids)
 
@@ -155,13 +155,10 @@ def _step(filter_: Filter, values: dict[str, Any]) -> Step:
     known = catalogue.find(filter_.name)
     assert known is not None
     params = []
-    for parameter in filter_.parameters:
-        kind = next(p.type for p in known.params if p.keyword == parameter.name)
-        details = [("description", parameter.label), ("tooltip", parameter.tooltip)]
-        if parameter.choices:
-            details.append(("enum_cardinality", str(len(parameter.choices))))
-            details += [(f"enum_val{i}", name) for i, name in enumerate(parameter.choices)]
-        params.append(Param(parameter.name, kind, values[parameter.name], tuple(details)))
+    for parameter, info in zip(filter_.parameters, known.params, strict=True):
+        details = (("description", parameter.label), ("tooltip", parameter.tooltip))
+        value = values[parameter.name]
+        params.append(Param(info.name, info.type, value, with_choices(info, details)))
     return Step(filter_.meshlab_name, tuple(params))
 
 
@@ -180,8 +177,8 @@ def _in_step(entries: list[Ids | Step], recorded: int) -> list[Ids | Step]:
         gone = set(native_places[:-extra])
         return [entry for i, entry in enumerate(entries) if i not in gone]
     unnoted: list[Ids | Step] = [NO_IDS] * extra
-    has_ours = any(isinstance(entry, Step) for entry in entries)
-    return [*entries, *unnoted] if has_ours else [*unnoted, *entries]
+    has_steps = any(isinstance(entry, Step) for entry in entries)
+    return [*entries, *unnoted] if has_steps else [*unnoted, *entries]
 
 
 def _with_ids(step: Step, ids: Ids) -> Step:

@@ -143,7 +143,7 @@ def _type(parameter: Parameter) -> str:
 # --- applying ----------------------------------------------------------------------------------
 
 
-def _our_filter(args: tuple[Any, ...], key: str, given: dict[str, Any]) -> Filter | None:
+def _willmore_filter(args: tuple[Any, ...], key: str, given: dict[str, Any]) -> Filter | None:
     """The filter that a call names, if the call is well-formed and the filter is ours."""
     if len(args) == 1 and isinstance(args[0], str):
         return BY_NAME.get(args[0])
@@ -154,30 +154,30 @@ def _our_filter(args: tuple[Any, ...], key: str, given: dict[str, Any]) -> Filte
 
 def _apply_filter(before: Callable, ms: MeshSet, /, *args: Any, **given: Any) -> dict[str, Any]:
     layers.sweep(ms)
-    filter_ = _our_filter(args, "filter_name", given)
+    filter_ = _willmore_filter(args, "filter_name", given)
     if filter_ is not None:
         values = values_of(ms, filter_, given)
         with _as_pymeshlab_error():
             recording.catch_up(ms)
         returned = apply(ms, filter_, values)
-        recording.note_ours(ms, filter_, values)
+        recording.note_step(ms, filter_, values)
         return returned
     if not ids.has_moved(ms):
         with native.in_order_if_verbose(ms):
             returned = before(ms, *args, **given)
-        recording.note_native(ms, recording.NO_IDS)
+        recording.note_native_step(ms, recording.NO_IDS)
         return returned
     name = args[0] if args else given.get("filter_name")
     with native_calls.prepared(ms, name, given) as called, native.in_order_if_verbose(ms):
         returned = before(ms, *args, **called)
-    recording.note_native(ms, native_calls.logical_ids(ms, name, called))
+    recording.note_native_step(ms, native_calls.logical_ids(ms, name, called))
     return returned
 
 
 def _filter_parameter_values(
     before: Callable, ms: MeshSet, /, *args: Any, **given: Any
 ) -> dict[str, Any]:
-    filter_ = _our_filter(args, "arg0", given)
+    filter_ = _willmore_filter(args, "arg0", given)
     if filter_ is not None:
         return values_of(ms, filter_, given)
     if len(args) == 1 and ids.has_moved(ms):
@@ -244,7 +244,7 @@ def _apply_filter_script(before: Callable, ms: MeshSet) -> None:
 def _load_filter_script(before: Callable, ms: MeshSet, filter_script_name: str | bytes) -> None:
     with _as_pymeshlab_error():
         path = os.fsdecode(filter_script_name) if filter_script_name else ""
-        steps = recording.our_script(path) if path else None
+        steps = recording.script_to_load(path) if path else None
     if steps is None:
         before(ms, filter_script_name)
         recording.forget(ms)

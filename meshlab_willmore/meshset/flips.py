@@ -1,4 +1,4 @@
-"""The flip filter: its parameters, and its action on the current mesh."""
+"""The flip filter: its parameters, and how it flips the edges of the current mesh."""
 
 from __future__ import annotations
 

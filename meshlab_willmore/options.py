@@ -15,6 +15,8 @@ import numpy as np
 
 from .energy.table import ENERGIES, VIRTUAL_POINTS
 
+# The filter whose parameters these are.
+FILTER = "meshing_edge_flip_by_willmore_optimization"
 # The value of `maxflips` that sets no limit; for `optimize_flips` that is None.
 NO_LIMIT = -1
 MOST_DEPTH = 100

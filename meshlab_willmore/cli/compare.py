@@ -23,7 +23,7 @@ from .paths import only_input
 from .text import for_json, table
 
 if TYPE_CHECKING:
-    from ..compare.contenders import Contender
+    from ..compare.rows import Row
 
 EXAMPLES = """\b
 Examples:
@@ -151,7 +151,7 @@ def command(
     path = only_input(source, "compare takes one")
     if reference is not None:
         check_reference(reference)
-    rows = _contenders(given, peers)
+    rows = _rows(given, peers)
     # With wrong variables each row would fail, without a clear reason.
     quick_start.import_numba()
     comparison = Comparison(str(path), reference, timeout)
@@ -165,36 +165,35 @@ def command(
         click.get_current_context().exit(1)
 
 
-def _contenders(given: dict[str, Any], peers: bool) -> list[Contender]:
-    from ..compare import contenders
+def _rows(given: dict[str, Any], peers: bool) -> list[Row]:
+    from ..compare.rows import INITIAL, PEERS, own_rows
 
     searches, energies = (
         dict.fromkeys(given.pop(option.name) or option.choices) for option in _ROWS
     )
     shared = {name: value for name, value in given.items() if value is not None}
     check_options(shared)
-    own = contenders.ours(searches, energies, shared)
-    return [contenders.INITIAL, *own, *(contenders.PEERS if peers else ())]
+    return [INITIAL, *own_rows(searches, energies, shared), *(PEERS if peers else ())]
 
 
-def _outcomes(comparison: Comparison, rows: Sequence[Contender]) -> list[Outcome]:
+def _outcomes(comparison: Comparison, rows: Sequence[Row]) -> list[Outcome]:
     """Compute the rows one by one, and print the errors of those that failed.
 
     Raises `ClickException` if not even the initial mesh can be measured.
     """
     outcomes: list[Outcome] = []
     with progress.shown(Path(comparison.source).name, len(rows)) as status:
-        for contender in rows:
-            status.next(f"{contender.name}: {compare_row.READING}")
-            say = partial(_show_phase, status, contender.name)
-            outcomes.append(compare_row.run(comparison, contender, say))
+        for row in rows:
+            status.next(f"{row.name}: {compare_row.READING}")
+            say = partial(_show_phase, status, row.name)
+            outcomes.append(compare_row.run(comparison, row, say))
             if outcomes[0].error:
                 break
-    for contender, outcome in zip(rows, outcomes, strict=False):
+    for row, outcome in zip(rows, outcomes, strict=False):
         if outcome.trace and is_debug():
             click.echo(outcome.trace, err=True)
         if outcome.error and not outcomes[0].error:
-            click.echo(f"Error: {contender.name}: {outcome.error}", err=True)
+            click.echo(f"Error: {row.name}: {outcome.error}", err=True)
     if error := outcomes[0].error:
         names = (comparison.source, comparison.reference or comparison.source)
         is_named = outcomes[0].of_machine or any(name in error for name in names)
@@ -206,29 +205,29 @@ def _show_phase(status: progress.Status, name: str, phase: str) -> None:
     status.begin(f"{name}: {phase}")
 
 
-def _json_row(contender: Contender, outcome: Outcome) -> dict[str, Any]:
+def _json_row(row: Row, outcome: Outcome) -> dict[str, Any]:
     """One row, with null for what is unknown."""
     ending = {"seconds": outcome.seconds, "timed_out": outcome.timed_out, "error": outcome.error}
-    return for_json({**contender._asdict(), **_numbers(outcome), **ending})
+    return for_json({**row._asdict(), **_numbers(outcome), **ending})
 
 
 def _numbers(outcome: Outcome) -> dict[str, Any]:
     """The number of each column."""
     return {
-        column.key: (outcome.figures or {}).get(column.key) for column in (*COLUMNS, *REFERENCED)
+        column.key: (outcome.quality or {}).get(column.key) for column in (*COLUMNS, *REFERENCED)
     }
 
 
-def _table(comparison: Comparison, rows: Sequence[Contender], outcomes: Sequence[Outcome]) -> str:
+def _table(comparison: Comparison, rows: Sequence[Row], outcomes: Sequence[Outcome]) -> str:
     columns = (*COLUMNS, *REFERENCED) if comparison.reference else COLUMNS
     header = ("", *(column.head for column in columns), "seconds")
     cells = [
         (
-            contender.name,
+            row.name,
             *(_cell(column, outcome) for column in columns),
             _time(comparison, outcome),
         )
-        for contender, outcome in zip(rows, outcomes, strict=True)
+        for row, outcome in zip(rows, outcomes, strict=True)
     ]
     legend = f"{LEGEND}\n{REFERENCE_LEGEND}" if comparison.reference else LEGEND
     return table([header, *cells], legend)

@@ -28,8 +28,8 @@ from .errors import WrongUse, reason
 from .paths import check_input
 
 if TYPE_CHECKING:
-    from ..compare.contenders import Contender
     from ..compare.reference import Reference, Sphere, Torus
+    from ..compare.rows import Row
 
 # The phases, in their order.
 READING = "reading"
@@ -58,8 +58,8 @@ class Outcome(NamedTuple):
 
     # Of the filter alone; None if there was none, or it did not end.
     seconds: float | None = None
-    # As `meshlab_willmore.compare.figures.Figures`.
-    figures: dict[str, Any] | None = None
+    # As `meshlab_willmore.compare.quality.Quality`.
+    quality: dict[str, Any] | None = None
     # In one line; a filter that takes too long is no error.
     error: str | None = None
     # Whether the machine is at fault, not the mesh or the filter.
@@ -69,9 +69,9 @@ class Outcome(NamedTuple):
     trace: str = ""
 
 
-def run(comparison: Comparison, contender: Contender, notify: Callable[[str], None]) -> Outcome:
+def run(comparison: Comparison, row: Row, notify: Callable[[str], None]) -> Outcome:
     """Compute one row; `notify` is called with each phase that begins."""
-    task = {**comparison._asdict(), "filter": contender.filter, "given": contender.given}
+    task = {**comparison._asdict(), "filter": row.filter, "given": row.given}
     phase = READING
     with _subprocess() as process:
         for answer in _answers(process, task):
@@ -173,8 +173,8 @@ def _outcome(
     given: dict[str, Any],
     send: Callable[[str], None],
 ) -> Outcome:
-    from ..compare.contenders import warm_up
-    from ..compare.figures import arrays, figures
+    from ..compare.quality import arrays, quality_of
+    from ..compare.rows import warm_up
 
     ms = loading.loaded(Path(source))
     _, faces = arrays(ms)
@@ -191,7 +191,7 @@ def _outcome(
             ms.apply_filter(filter, **given)
             seconds = time.perf_counter() - start
     send(MEASURING)
-    return Outcome(seconds, figures(ms, faces, surface)._asdict())
+    return Outcome(seconds, quality_of(ms, faces, surface)._asdict())
 
 
 @contextmanager
@@ -221,7 +221,7 @@ def check_reference(text: str) -> None:
 
 def read_reference(text: str) -> Reference:
     """The surface of a name, or of a file; raises `OSError` if that holds no faces."""
-    from ..compare.figures import arrays
+    from ..compare.quality import arrays
     from ..compare.reference import Surface
 
     named = _named_surface(text)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..options import OPTIONS, Option
+from ..options import FILTER, OPTIONS, Option
 from . import loading, progress
 from .arguments import SeveralParts, force_option, mask_option
 from .errors import WrongUse, debug_option, reason
@@ -18,7 +18,6 @@ from .text import flip_results
 if TYPE_CHECKING:
     import pymeshlab
 
-FILTER = "meshing_edge_flip_by_willmore_optimization"
 EXAMPLES = """\b
 Examples:
   meshlab-willmore flip scan.ply flipped.ply

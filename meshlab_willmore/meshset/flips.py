@@ -8,7 +8,7 @@ from typing import Any
 
 import pymeshlab
 
-from ..options import ENERGY, NO_LIMIT, OPTIONS, SEARCH, VIRTUALPOINT, Option
+from ..options import ENERGY, FILTER, NO_LIMIT, OPTIONS, SEARCH, VIRTUALPOINT, Option
 from . import edge_flags, exchange, ids, interrupts, native
 from .filter import Filter, current_surface
 from .parameters import Parameter
@@ -129,7 +129,7 @@ _RETURNS = (
 )
 
 FLIPS = Filter(
-    "meshing_edge_flip_by_willmore_optimization",
+    FILTER,
     "Willmore flipping optimization",
     "Mesh optimization by edge flipping, to make the surface locally as near to a sphere as its "
     "vertices allow.",

@@ -9,8 +9,8 @@ import pytest
 import meshlab_willmore
 from meshlab_willmore.cli import compare, compare_row
 from meshlab_willmore.cli.progress import Status
-from meshlab_willmore.compare import contenders
-from meshlab_willmore.compare.figures import Figures
+from meshlab_willmore.compare import rows as rows_module
+from meshlab_willmore.compare.quality import Quality
 from meshlab_willmore.compare.reference import Sphere, deviation
 from meshlab_willmore.measure import triangle_shapes
 from meshlab_willmore.options import ENERGY, SEARCH
@@ -18,10 +18,10 @@ from tests import reference
 
 from .conftest import call, cube_file, listing, loaded
 
-PLANAR = contenders.PEERS[1]
-SOME = Figures(12, 45.757, 6.22709, 12.5664, 1e-4, 0.08151, 0.67097, 3, None, None)
+PLANAR = rows_module.PEERS[1]
+SOME = Quality(12, 45.757, 6.22709, 12.5664, 1e-4, 0.08151, 0.67097, 3, None, None)
 CHOSEN = ("--search", "greedy", "--energy", "willmore")
-NAMES = ["initial", "greedy, willmore", *(peer.name for peer in contenders.PEERS)]
+NAMES = ["initial", "greedy, willmore", *(peer.name for peer in rows_module.PEERS)]
 
 
 @pytest.fixture
@@ -30,11 +30,11 @@ def rows(monkeypatch):
     ran = {}
     becomes = {}
 
-    def run(task, contender, say):
+    def run(task, row, say):
         say(compare_row.RUNNING)
-        ran[contender.name] = (task, contender)
-        done = compare_row.Outcome(0.125 if contender.filter else None, SOME._asdict())
-        return becomes.get(contender.name, done)
+        ran[row.name] = (task, row)
+        done = compare_row.Outcome(0.125 if row.filter else None, SOME._asdict())
+        return becomes.get(row.name, done)
 
     monkeypatch.setattr(compare_row, "run", run)
     ran["becomes"] = becomes
@@ -47,8 +47,8 @@ def shown(result):
 
 
 @pytest.mark.slow
-def test_figures_are_those_of_direct_calls(cube, monkeypatch):
-    monkeypatch.setattr(contenders, "PEERS", (PLANAR,))
+def test_quality_are_those_of_direct_calls(cube, monkeypatch):
+    monkeypatch.setattr(rows_module, "PEERS", (PLANAR,))
     result = call("compare", cube, *CHOSEN, "--reference", "sphere:1", "--json")
     assert (result.exit_code, result.stderr) == (0, "")
     initial, own, planar = json.loads(result.stdout)
@@ -110,12 +110,12 @@ def test_a_filter_that_is_too_slow_is_no_failure(cube, rows):
     assert (result.exit_code, result.stderr) == (0, "")
     row = json.loads(result.stdout)[1]
     assert row["timed_out"]
-    assert {row[key] for key in (*Figures._fields, "seconds", "error")} == {None}
+    assert {row[key] for key in (*Quality._fields, "seconds", "error")} == {None}
 
 
 def test_reference_adds_two_columns(cube, rows):
-    figures = SOME._replace(normal_error=9.634, distance=0.0156789)._asdict()
-    rows["becomes"]["initial"] = compare_row.Outcome(None, figures)
+    quality = SOME._replace(normal_error=9.634, distance=0.0156789)._asdict()
+    rows["becomes"]["initial"] = compare_row.Outcome(None, quality)
     nan = SOME._replace(normal_error=1.0, distance=float("nan"))._asdict()
     rows["becomes"][NAMES[1]] = compare_row.Outcome(2.0, nan)
     arguments = ("compare", cube, *CHOSEN, "--reference", "torus:3,1")
@@ -149,7 +149,7 @@ def test_rows_can_be_chosen(cube, rows, monkeypatch, arguments, wanted):
     monkeypatch.setattr(compare, "_ROWS", fewer)
     lines = shown(call("compare", cube, "--no-peers", *arguments))[2:-1]
     assert [line.split("  ")[0] for line in lines] == ["initial", *wanted]
-    assert call("compare", cube, *arguments).stdout.count("MeshLab ") == len(contenders.PEERS)
+    assert call("compare", cube, *arguments).stdout.count("MeshLab ") == len(rows_module.PEERS)
 
 
 def test_parameters_of_the_filter_are_options_for_our_rows(cube, rows):

@@ -11,21 +11,21 @@ import pytest
 
 from meshlab_willmore.cli import compare_row
 from meshlab_willmore.cli.compare_row import Comparison, Outcome
-from meshlab_willmore.compare import contenders
-from meshlab_willmore.compare.contenders import Contender, ours
+from meshlab_willmore.compare import rows
+from meshlab_willmore.compare.rows import Row, own_rows
 
 from .conftest import cube_file, listing
 
 PATIENCE = 60
 STEP = 0.05
 # Native, and for ever.
-ENDLESS = Contender("endless", "apply_coord_laplacian_smoothing", {"stepsmoothnum": 10**9})
+ENDLESS = Row("endless", "apply_coord_laplacian_smoothing", {"stepsmoothnum": 10**9})
 # PyMeshLab dies of it.
-DEADLY = Contender(
+DEADLY = Row(
     "deadly", "meshing_decimation_quadric_edge_collapse", {"targetfacenum": -5, "targetperc": 0.0}
 )
-FAULTY = Contender("faulty", "apply_coord_laplacian_smoothing", {"nonsense": 1})
-(OWN,) = ours(["greedy"], ["willmore"], {})
+FAULTY = Row("faulty", "apply_coord_laplacian_smoothing", {"nonsense": 1})
+(OWN,) = own_rows(["greedy"], ["willmore"], {})
 
 
 @pytest.fixture
@@ -49,7 +49,7 @@ def test_phases_of_a_row(task):
     outcome = compare_row.run(task, OWN, said.append)
     assert said == [compare_row.WARMING, compare_row.RUNNING, compare_row.MEASURING]
     assert outcome.seconds > 0.0
-    assert outcome.figures["flips"] == 10
+    assert outcome.quality["flips"] == 10
 
 
 @pytest.mark.slow
@@ -69,7 +69,7 @@ def test_crash_and_error_are_reported(task):
     assert "nonsense" in outcome.error
     assert "\n" not in outcome.error
     assert outcome.trace.startswith("Traceback")
-    assert (outcome.figures, outcome.timed_out) == (None, False)
+    assert (outcome.quality, outcome.timed_out) == (None, False)
 
 
 def test_process_that_does_not_start_is_reported(task, monkeypatch):
@@ -79,7 +79,7 @@ def test_process_that_does_not_start_is_reported(task, monkeypatch):
 
 def test_filter_is_warmed_up_before_timing(task, monkeypatch):
     events = []
-    monkeypatch.setattr(contenders, "warm_up", lambda *given: events.append(given))
+    monkeypatch.setattr(rows, "warm_up", lambda *given: events.append(given))
     given = {"filter": OWN.filter, "given": OWN.given}
     compare_row._outcome(**task._asdict(), **given, send=events.append)
     warmed = (OWN.filter, OWN.given)
@@ -117,20 +117,20 @@ def test_hanging_load_is_killed_with_its_process(monkeypatch):
 def test_files_of_the_working_folder_do_not_hide_modules(task):
     Path("json.py").write_text("raise ImportError('a file of the user')")
     Path("click.py").write_text("raise ImportError('a file of the user')")
-    initial = Contender("initial", "", {})
-    assert compare_row.run(task, initial, print).figures["area"] == pytest.approx(6.22709, abs=1e-5)
+    initial = Row("initial", "", {})
+    assert compare_row.run(task, initial, print).quality["area"] == pytest.approx(6.22709, abs=1e-5)
 
 
 @pytest.mark.slow
 def test_time_limit_is_for_the_filter_alone(task, monkeypatch):
     slow = (
         "import sys, time; sys.path[:] = {path!r}; from {module} import main\n"
-        "from meshlab_willmore.compare import contenders\n"
-        "contenders.warm_up = lambda *_: time.sleep(1.5)\n"
+        "from meshlab_willmore.compare import rows\n"
+        "rows.warm_up = lambda *_: time.sleep(1.5)\n"
         "main()"
     )
     monkeypatch.setattr(compare_row, "_PROGRAM", slow)
-    native = Contender("quick", "set_selection_all", {})
+    native = Row("quick", "set_selection_all", {})
     outcome = compare_row.run(task._replace(timeout=1.0), native, print)
     assert (outcome.timed_out, outcome.error) == (False, None)
 
@@ -142,9 +142,9 @@ SLOW = f"""
 import subprocess, sys
 from pathlib import Path
 from meshlab_willmore.cli import compare, main
-from meshlab_willmore.compare import contenders
-contenders.PEERS = (contenders.{ENDLESS},)
-contenders.ours = lambda *_: []
+from meshlab_willmore.compare import rows
+rows.PEERS = (rows.{ENDLESS},)
+rows.ours = lambda *_: []
 class Noted(subprocess.Popen):
     def __init__(self, *arguments, **given):
         super().__init__(*arguments, **given)

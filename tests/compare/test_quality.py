@@ -1,11 +1,11 @@
-"""The figures of a mesh: against the functions on arrays, and the slow reference."""
+"""The quality of a mesh: against the functions on arrays, and the slow reference."""
 
 import numpy as np
 import pymeshlab
 import pytest
 
 import meshlab_willmore
-from meshlab_willmore.compare.figures import figures
+from meshlab_willmore.compare.quality import quality_of
 from meshlab_willmore.compare.reference import Sphere, deviation
 from meshlab_willmore.measure import triangle_shapes
 from meshlab_willmore.mesh.build import changed_edges
@@ -18,11 +18,11 @@ def set_of(vertices, faces):
     return ms
 
 
-def test_figures_are_those_of_the_functions():
+def test_measures_are_those_of_the_functions():
     vertices, faces = meshes.bumpy_sphere(200)
     before = faces[::-1]
     flipped = meshlab_willmore.optimize_flips(vertices, faces, maxflips=9).faces
-    found = figures(set_of(vertices, flipped), before, Sphere(1.0))
+    found = quality_of(set_of(vertices, flipped), before, Sphere(1.0))
     totals = meshlab_willmore.measures(vertices, flipped)
     for name in ("willmore_energy", "area", "absolute_gaussian_curvature"):
         assert getattr(found, name) == getattr(totals, name)
@@ -35,23 +35,23 @@ def test_figures_are_those_of_the_functions():
 
 def test_without_a_reference_there_is_no_deviation():
     vertices, faces = meshes.cube()
-    found = figures(set_of(vertices, faces), faces, None)
+    found = quality_of(set_of(vertices, faces), faces, None)
     assert (found.normal_error, found.distance, found.flips) == (None, None, 0)
 
 
 def test_faces_that_cut_others_are_counted():
     vertices, faces = meshes.cube()
     both = np.vstack([vertices, vertices + (0.5, 0.3, 0.2)])
-    cut = figures(set_of(both, np.vstack([faces, faces + len(vertices)])), faces, None)
+    cut = quality_of(set_of(both, np.vstack([faces, faces + len(vertices)])), faces, None)
     assert cut.self_intersecting > 2
-    assert figures(set_of(vertices, faces), faces, None).self_intersecting == 0
+    assert quality_of(set_of(vertices, faces), faces, None).self_intersecting == 0
 
 
 def test_the_transformation_counts():
     vertices, faces = meshes.cube()
     ms = set_of(vertices, faces)
     ms.compute_matrix_from_scaling_or_normalization(axisx=2.0, uniformflag=True, freeze=False)
-    assert figures(ms, faces, None).area == pytest.approx(4.0 * 6.22709, abs=1e-4)
+    assert quality_of(ms, faces, None).area == pytest.approx(4.0 * 6.22709, abs=1e-4)
 
 
 @pytest.mark.parametrize("steps", [1, 5, 40])

@@ -1,4 +1,4 @@
-"""What is compared: our filter with each search and energy, and MeshLab's own flip filters."""
+"""The rows of a comparison: our filter with each search and energy, and MeshLab's flip filters."""
 
 from __future__ import annotations
 
@@ -9,26 +9,26 @@ import pymeshlab
 
 from ..demo.models import dented_cube
 from ..meshset.filters import BY_NAME
+from ..options import FILTER
 
-FILTER = "meshing_edge_flip_by_willmore_optimization"
 PLANAR = "meshing_edge_flip_by_planar_optimization"
 CURVATURE = "meshing_edge_flip_by_curvature_optimization"
 
-# All rows flip the whole mesh, and what they lose beside positions and faces is not looked at.
-_ALIKE = {"selection": False, "allowloss": True}
+# All rows flip the whole mesh. Only positions and faces are compared, so other data may be lost.
+_SAME_FOR_ALL = {"selection": False, "allowloss": True}
 
 
-class Contender(NamedTuple):
+class Row(NamedTuple):
     """One way to flip the edges of a mesh.
 
     Attributes
     ----------
     name : str
-        What its row is called.
+        The label of the row.
     filter : str
-        The filter's name; empty for the mesh as it is.
+        The filter's name; empty for the initial mesh.
     given : dict
-        The filter's parameters that are not left to their defaults.
+        The parameters of the filter that differ from their defaults.
     search, energy : str or None
         Those of our filter.
     """
@@ -40,12 +40,12 @@ class Contender(NamedTuple):
     energy: str | None = None
 
 
-INITIAL = Contender("initial", "", {})
+INITIAL = Row("initial", "", {})
 
-# Without iterations of a smoothing that moves vertices, which is MeshLab's default.
+# MeshLab's default also smooths, which moves vertices.
 PEERS = (
     *(
-        Contender(
+        Row(
             f"MeshLab planar, {degrees:g} deg",
             PLANAR,
             {"planartype": "delaunay", "pthreshold": degrees, "iterations": 0},
@@ -53,22 +53,22 @@ PEERS = (
         for degrees in (1.0, 60.0)
     ),
     *(
-        Contender(f"MeshLab curvature, {kind}", CURVATURE, {"curvtype": kind})
+        Row(f"MeshLab curvature, {kind}", CURVATURE, {"curvtype": kind})
         for kind in ("mean", "absolute")
     ),
 )
 
 
-def ours(
+def own_rows(
     searches: Iterable[str], energies: Iterable[str], given: Mapping[str, Any]
-) -> list[Contender]:
-    """A contender for each pair; `given` are further parameters of the filter, for all of them."""
+) -> list[Row]:
+    """A row for each search and energy; `given` are further parameters of the filter, for all."""
     energies = tuple(energies)
     return [
-        Contender(
+        Row(
             f"{search}, {energy}",
             FILTER,
-            {**_ALIKE, **given, "search": search, "energy": energy},
+            {**_SAME_FOR_ALL, **given, "search": search, "energy": energy},
             search,
             energy,
         )
@@ -78,7 +78,7 @@ def ours(
 
 
 def warm_up(filter_name: str, given: Mapping[str, Any]) -> None:
-    """Make Numba compile, or fetch from its cache, what our filter needs with these parameters."""
+    """Compile the kernels of our filter for these parameters, or load them from the cache."""
     if filter_name not in BY_NAME:
         return
     ms = pymeshlab.MeshSet()

@@ -1,4 +1,4 @@
-"""The figures of a mesh, as it is after a contender's flips."""
+"""Quality measures of a mesh after the flips of a row."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from .reference import Array, Reference, deviation
 WORST_SHARE = 0.01
 
 
-class Figures(NamedTuple):
-    """What a mesh is measured by; lengths in units of the coordinates.
+class Quality(NamedTuple):
+    """Quality measures of a mesh; lengths in units of the coordinates.
 
     Attributes
     ----------
     flips : int
-        Edges that the mesh at the start does not have.
+        Edges that the initial mesh does not have.
     willmore_energy, area, absolute_gaussian_curvature, absolute_mean_curvature : float
         As `meshlab_willmore.measures` returns them.
     worst_shape, mean_shape : float
-        4 sqrt(3) area / (sum of squared sides) of the triangles, 1 if equilateral: the mean, and
-        what the worst 1 % are below.
+        4 sqrt(3) area / (sum of squared sides) of the triangles, 1 if equilateral: the 1 %
+        quantile, and the mean.
     self_intersecting : int
-        Faces that cut another, as PyMeshLab counts them.
+        Faces that intersect another, as PyMeshLab counts them.
     normal_error, distance : float or None
         See `meshlab_willmore.compare.reference.Deviation`; None without a reference.
     """
@@ -45,21 +45,21 @@ class Figures(NamedTuple):
     distance: float | None
 
 
-def figures(
+def quality_of(
     ms: pymeshlab.MeshSet, before: NDArray[np.int32], reference: Reference | None
-) -> Figures:
+) -> Quality:
     """Measure the current mesh of `ms`; its selection of faces is changed.
 
     Parameters
     ----------
     before : (m, 3) int32
-        The faces at the start.
+        The faces of the initial mesh.
     """
     vertices, faces = arrays(ms)
     totals = measures(vertices, faces)
     shapes = triangle_shapes(vertices, faces)
     ms.compute_selection_by_self_intersections_per_face()
-    return Figures(
+    return Quality(
         changed_edges(before, faces),
         totals.willmore_energy,
         totals.area,

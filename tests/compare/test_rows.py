@@ -5,7 +5,7 @@ from itertools import product
 import pytest
 
 import meshlab_willmore
-from meshlab_willmore.compare import contenders
+from meshlab_willmore.compare import rows as rows_module
 from meshlab_willmore.meshset import filters
 from meshlab_willmore.meshset.catalogue import find
 from meshlab_willmore.options import ENERGY, SEARCH
@@ -13,9 +13,9 @@ from meshlab_willmore.options import ENERGY, SEARCH
 
 def test_there_is_a_row_for_each_search_and_energy_of_the_filter():
     searches, energies = SEARCH.choices, ENERGY.choices
-    rows = contenders.ours(iter(searches), iter(energies), {"featuredeg": 30.0})
+    rows = rows_module.own_rows(iter(searches), iter(energies), {"featuredeg": 30.0})
     assert [(r.search, r.energy) for r in rows] == list(product(searches, energies))
-    assert len({r.name for r in (contenders.INITIAL, *rows, *contenders.PEERS)}) == len(rows) + 5
+    assert len({r.name for r in (rows_module.INITIAL, *rows, *rows_module.PEERS)}) == len(rows) + 5
     for row in rows:
         assert row.given == {
             "search": row.search,
@@ -26,7 +26,7 @@ def test_there_is_a_row_for_each_search_and_energy_of_the_filter():
         }
 
 
-@pytest.mark.parametrize("peer", contenders.PEERS, ids=lambda peer: peer.name)
+@pytest.mark.parametrize("peer", rows_module.PEERS, ids=lambda peer: peer.name)
 def test_peers_are_filters_of_meshlab_with_parameters_that_they_have(peer):
     known = find(peer.filter)
     assert not known.is_willmore
@@ -43,17 +43,17 @@ def test_warm_up_calls_our_filter_as_it_will_be_called_and_no_other(monkeypatch)
         calls.append((ms.current_mesh().face_number(), values))
         return {}, ""
 
-    ours = filters.BY_NAME[contenders.FILTER]
-    monkeypatch.setitem(filters.BY_NAME, contenders.FILTER, ours._replace(run=note))
+    ours = filters.BY_NAME[rows_module.FILTER]
+    monkeypatch.setitem(filters.BY_NAME, rows_module.FILTER, ours._replace(run=note))
     meshlab_willmore.unregister()
     try:
         meshlab_willmore.register()
-        contenders.warm_up(contenders.FILTER, {"featuredeg": 12.0})
+        rows_module.warm_up(rows_module.FILTER, {"featuredeg": 12.0})
     finally:
         meshlab_willmore.unregister()
         monkeypatch.undo()
         meshlab_willmore.register()
-    contenders.warm_up(contenders.PLANAR, {"iterations": "nonsense"})
-    contenders.warm_up("", {})
+    rows_module.warm_up(rows_module.PLANAR, {"iterations": "nonsense"})
+    rows_module.warm_up("", {})
     ((faces, values),) = calls
     assert (faces, values["featuredeg"]) == (24, 12.0)

@@ -1,4 +1,4 @@
-"""The demo's models, and the story told on small ones."""
+"""The demo's models, and its experiments on small ones."""
 
 import sys
 
@@ -7,14 +7,15 @@ import pymeshlab
 import pytest
 from scipy.spatial import Delaunay, cKDTree
 
-import meshlab_willmore.report
 from meshlab_willmore.demo import scan as scan_module
+from meshlab_willmore.demo.experiments import CLOSEUP_VIEW, FLIPS, Sizes, run_demo
 from meshlab_willmore.demo.models import (
     Surface,
     dented_cube,
     planar_delaunay,
     sampled_torus,
     signed_areas,
+    surface_of,
 )
 from meshlab_willmore.demo.scan import (
     CLEANING,
@@ -24,8 +25,6 @@ from meshlab_willmore.demo.scan import (
     scanner_plane,
     stretched_triangulation,
 )
-from meshlab_willmore.demo.story import CLOSEUP_VIEW, FLIPS, Sizes, tell
-from meshlab_willmore.demo.studio import current
 from meshlab_willmore.measure import measures, triangle_shapes
 from tests.meshes import torus as reference_torus
 
@@ -114,7 +113,7 @@ def cleaned():
     meshes.load_new_mesh(str(scan_file()))
     for name, given in CLEANING:
         meshes.apply_filter(name, **given)
-    return current(meshes)
+    return surface_of(meshes)
 
 
 def test_cleaned_scan_has_one_place_in_the_scanners_plane(cleaned):
@@ -170,15 +169,15 @@ def upright(surface):
     return (along > 2 * across).mean()
 
 
-# The story
+# The experiments
 
 
 @pytest.fixture(scope="module")
-def told(tmp_path_factory):
+def demo(tmp_path_factory):
     pytest.importorskip("matplotlib")
     folder = tmp_path_factory.mktemp("demo") / "new"
     lines = []
-    return folder, tell(folder, lines.append, SMALL), lines
+    return folder, run_demo(folder, lines.append, SMALL), lines
 
 
 def assert_row_is_of(stage, surface):
@@ -193,14 +192,14 @@ def assert_row_is_of(stage, surface):
 def loaded(path):
     meshes = pymeshlab.MeshSet()
     meshes.load_new_mesh(str(path))
-    return current(meshes)
+    return surface_of(meshes)
 
 
 @pytest.mark.heavy
 @pytest.mark.slow
-def test_story_has_its_stages(told):
-    _, story, lines = told
-    assert [(stage.model, stage.name) for stage in story.stages] == [
+def test_the_demo_has_its_stages(demo):
+    _, result, lines = demo
+    assert [(stage.model, stage.name) for stage in result.stages] == [
         ("cube", "initial"),
         ("cube", "Willmore flips"),
         ("torus", "initial"),
@@ -213,15 +212,15 @@ def test_story_has_its_stages(told):
         ("face", "Willmore flips"),
         ("face", "Taubin smoothing"),
     ]
-    for stage in story.stages:
+    for stage in result.stages:
         assert f"{stage.model}: {stage.name}" in lines
     assert all("\n" not in line and line.isascii() for line in lines)
 
 
 @pytest.mark.heavy
-def test_flips_lower_the_energy_and_keep_the_faces(told):
-    _, story, _ = told
-    for before, after in zip(story.stages, story.stages[1:], strict=False):
+def test_flips_lower_the_energy_and_keep_the_faces(demo):
+    _, result, _ = demo
+    for before, after in zip(result.stages, result.stages[1:], strict=False):
         if after.flips is not None:
             assert after.flips > 0
             assert after.model == before.model
@@ -234,9 +233,9 @@ def test_flips_lower_the_energy_and_keep_the_faces(told):
 
 
 @pytest.mark.heavy
-def test_cubes_rows_are_exact(told):
-    _, story, _ = told
-    before, after = story.stages[:2]
+def test_cubes_rows_are_exact(demo):
+    _, result, _ = demo
+    before, after = result.stages[:2]
     assert (before.faces, before.flips, before.seconds) == (24, None, None)
     assert before.willmore == pytest.approx(45.7570, abs=5e-5)
     assert (after.faces, after.flips) == (24, 6)
@@ -246,17 +245,17 @@ def test_cubes_rows_are_exact(told):
 
 @pytest.mark.heavy
 @pytest.mark.slow
-def test_meshes_are_written_and_only_edges_differ(told):
-    folder, story, _ = told
-    assert sorted(folder.iterdir()) == sorted(story.files)
-    names = {path.stem for path in story.files if path.suffix == ".ply"}
+def test_meshes_are_written_and_only_edges_differ(demo):
+    folder, result, _ = demo
+    assert sorted(folder.iterdir()) == sorted(result.files)
+    names = {path.stem for path in result.files if path.suffix == ".ply"}
     assert names == {
         *(f"{model}-{state}" for model in ("cube", "torus", "scan", "face")
           for state in ("before", "after")),
         "scan-smoothed",
         "face-smoothed",
     }  # fmt: skip
-    rows = {(stage.model, stage.flips is not None): stage for stage in story.stages}
+    rows = {(stage.model, stage.flips is not None): stage for stage in result.stages}
     for model in ("cube", "torus", "scan", "face"):
         path = folder / f"{model}-before.ply"
         assert path.read_bytes().startswith(b"ply\nformat binary_little_endian")
@@ -274,12 +273,12 @@ def test_meshes_are_written_and_only_edges_differ(told):
 
 @pytest.mark.heavy
 @pytest.mark.slow
-def test_pictures_are_written_and_not_blank(told):
+def test_pictures_are_written_and_not_blank(demo):
     image = pytest.importorskip("matplotlib.image")
     from meshlab_willmore.report.pictures import CAPTION_HEIGHT, PANEL_WIDTH, PIXELS_PER_INCH
 
-    folder, story, _ = told
-    paths = [path for path in story.files if path.suffix == ".png"]
+    folder, result, _ = demo
+    paths = [path for path in result.files if path.suffix == ".png"]
     assert [path.name for path in paths] == [
         "cube.png",
         "torus.png",
@@ -310,16 +309,16 @@ def no_scan(monkeypatch, tmp_path):
     monkeypatch.setattr(scan_module, "SCAN_IN_WHEEL", tmp_path / "nowhere" / "face000.ply")
 
 
-def test_a_build_without_the_scan_is_told(no_scan):
+def test_a_build_without_the_scan_is_named(no_scan):
     with pytest.raises(ScanNotFoundError, match=r"does not carry the face scan .*face000\.ply"):
         scan_file()
 
 
 @pytest.mark.heavy
-def test_the_story_goes_on_without_the_scan(no_scan, tmp_path):
+def test_the_demo_goes_on_without_the_scan(no_scan, tmp_path):
     lines = []
-    story = tell(tmp_path, lines.append, SMALL)
-    assert [stage.model for stage in story.stages] == ["cube", "cube", "torus", "torus"]
+    result = run_demo(tmp_path, lines.append, SMALL)
+    assert [stage.model for stage in result.stages] == ["cube", "cube", "torus", "torus"]
     assert lines[-1].startswith("no face: this build of PyMeshLab does not carry")
 
 
@@ -328,12 +327,10 @@ def test_without_matplotlib_meshes_and_table_still_come(no_scan, monkeypatch, tm
     for name in [name for name in sys.modules if name.partition(".")[0] == "matplotlib"]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    monkeypatch.delitem(sys.modules, "meshlab_willmore.report.pictures", raising=False)
-    monkeypatch.delattr(meshlab_willmore.report, "pictures", raising=False)
     lines = []
-    story = tell(tmp_path, lines.append, SMALL)
+    result = run_demo(tmp_path, lines.append, SMALL)
     assert 'pip install "meshlab-willmore[demo]"' in lines[0]
-    assert len(story.stages) == 4
+    assert len(result.stages) == 4
     assert sorted(path.name for path in tmp_path.iterdir()) == [
         "cube-after.ply",
         "cube-before.ply",
@@ -343,11 +340,11 @@ def test_without_matplotlib_meshes_and_table_still_come(no_scan, monkeypatch, tm
 
 
 def test_nothing_is_computed_for_a_folder_that_cannot_be(monkeypatch, tmp_path):
-    monkeypatch.setattr("meshlab_willmore.demo.story.FLIPS", None)
+    monkeypatch.setattr("meshlab_willmore.demo.experiments.FLIPS", None)
     taken = tmp_path / "taken"
     taken.touch()
     with pytest.raises(OSError, match="it is a file"):
-        tell(taken, pytest.fail, SMALL)
+        run_demo(taken, pytest.fail, SMALL)
 
 
 def test_the_flips_are_a_filter_of_the_mesh_set():
@@ -355,6 +352,6 @@ def test_the_flips_are_a_filter_of_the_mesh_set():
     meshes.add_mesh(pymeshlab.Mesh(*dented_cube()))
     ((name, given),) = FLIPS
     assert meshes.apply_filter(name, **given)["flips"] == 6
-    flipped = current(meshes)
+    flipped = surface_of(meshes)
     assert isinstance(flipped, Surface)
     assert np.bincount(flipped.faces.ravel())[8:].tolist() == [4] * 6

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from meshlab_willmore.report.camera import View, Window, view_from, window_of
-from meshlab_willmore.report.table import LEGEND, Stage, format_table, significant
+from meshlab_willmore.report.pictures import View, Window, view_from, window_of
+from meshlab_willmore.report.stages import LEGEND, Stage, format_table, significant
 
 FROM_ABOVE = view_from((0.0, 0.0, 1.0), up=(0.0, 1.0, 0.0))
 

@@ -235,7 +235,7 @@ def _table(comparison: Comparison, rows: Sequence[Row], outcomes: Sequence[Outco
 
 def _cell(column: Column, outcome: Outcome) -> str:
     """A number; empty if it is unknown."""
-    from ..report.table import significant
+    from ..report.stages import significant
 
     value = _numbers(outcome)[column.key]
     if value is None or math.isnan(value):

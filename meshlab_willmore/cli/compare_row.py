@@ -173,11 +173,12 @@ def _outcome(
     given: dict[str, Any],
     send: Callable[[str], None],
 ) -> Outcome:
-    from ..compare.quality import arrays, quality_of
+    from ..compare.quality import quality_of
     from ..compare.rows import warm_up
+    from ..demo.models import surface_of
 
     ms = loading.loaded(Path(source))
-    _, faces = arrays(ms)
+    faces = surface_of(ms).faces
     if len(faces) == 0:
         raise ValueError("the mesh has no faces, it is a point cloud")
     surface = read_reference(reference) if reference else None
@@ -221,17 +222,17 @@ def check_reference(text: str) -> None:
 
 def read_reference(text: str) -> Reference:
     """The surface of a name, or of a file; raises `OSError` if that holds no faces."""
-    from ..compare.quality import arrays
-    from ..compare.reference import Surface
+    from ..compare.reference import ReferenceMesh
+    from ..demo.models import surface_of
 
     named = _named_surface(text)
     if named is not None:
         return named
     check_reference(text)
-    surface = Surface(*arrays(loading.loaded(Path(text))))
-    if len(surface.faces) == 0:
+    mesh = ReferenceMesh(*surface_of(loading.loaded(Path(text))))
+    if len(mesh.faces) == 0:
         raise OSError(f"{text} can't be the reference: it is a point cloud, without faces")
-    return surface
+    return mesh
 
 
 def _named_surface(text: str) -> Sphere | Torus | None:

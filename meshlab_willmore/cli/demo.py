@@ -35,16 +35,16 @@ def command(output: Path) -> None:
     goes to the standard output, meshes (PLY) and pictures of before and after (PNG) into the
     folder. It needs no network and no files.
     """
-    from ..demo.story import tell
-    from ..report.table import format_table
+    from ..demo.experiments import run_demo
+    from ..report.stages import format_table
 
     with progress.shown("demo") as status, progress.with_details(status):
 
-        def say(line: str) -> None:
+        def notify(line: str) -> None:
             click.echo(line, err=True)
             status.begin(line)
 
-        story = tell(output, say)
-    click.echo(format_table(story.stages))
+        result = run_demo(output, notify)
+    click.echo(format_table(result.stages))
     click.echo(f"Written to {output.resolve()}:")
-    click.echo("  " + " ".join(file.name for file in story.files))
+    click.echo("  " + " ".join(file.name for file in result.files))

@@ -90,7 +90,7 @@ def _measure(ms: pymeshlab.MeshSet, path: Path) -> dict[str, Any]:
 
 
 def _table(measured: Iterable[dict[str, Any]]) -> str:
-    from ..report.table import significant
+    from ..report.stages import significant
 
     rows: list[tuple[str, ...]] = [HEADER]
     for row in measured:

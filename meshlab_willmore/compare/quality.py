@@ -8,9 +8,10 @@ import numpy as np
 import pymeshlab
 from numpy.typing import NDArray
 
+from ..demo.models import surface_of
 from ..measure import measures, triangle_shapes
 from ..mesh.build import changed_edges
-from .reference import Array, Reference, deviation
+from .reference import Reference, deviation
 
 WORST_SHARE = 0.01
 
@@ -55,7 +56,7 @@ def quality_of(
     before : (m, 3) int32
         The faces of the initial mesh.
     """
-    vertices, faces = arrays(ms)
+    vertices, faces = surface_of(ms)
     totals = measures(vertices, faces)
     shapes = triangle_shapes(vertices, faces)
     ms.compute_selection_by_self_intersections_per_face()
@@ -70,9 +71,3 @@ def quality_of(
         ms.current_mesh().selected_face_number(),
         *((None, None) if reference is None else deviation(vertices, faces, reference)),
     )
-
-
-def arrays(ms: pymeshlab.MeshSet) -> tuple[Array, NDArray[np.int32]]:
-    """Vertices and faces of the current mesh, in its transformation."""
-    mesh = ms.current_mesh()
-    return mesh.transformed_vertex_matrix(), mesh.face_matrix()

@@ -1,4 +1,4 @@
-"""How far a mesh is from the surface that it stands for."""
+"""How far a mesh is from the surface that it approximates."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _CENTROID = np.full((1, 3), 1.0 / 3.0)
 
 
 class Reference(Protocol):
-    """A surface that can tell its nearest point."""
+    """A surface that finds its nearest points."""
 
     def nearest(self, points: Array) -> tuple[Array, Array]:
         """Look up the nearest points on the surface.
@@ -60,7 +60,7 @@ class Torus(NamedTuple):
         return np.abs(np.linalg.norm(outward, axis=1) - self.tube), outward
 
 
-class Surface(NamedTuple):
+class ReferenceMesh(NamedTuple):
     """A triangle mesh: vertices (n, 3) and faces (m, 3)."""
 
     vertices: Array
@@ -105,7 +105,7 @@ class Deviation(NamedTuple):
 
 
 def deviation(vertices: Array, faces: NDArray[np.int32], reference: Reference) -> Deviation:
-    """Compare a mesh with a reference; NaN is what can't be told.
+    """Compare a mesh with a reference; NaN is unknown.
 
     Parameters
     ----------

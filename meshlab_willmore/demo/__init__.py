@@ -1,5 +1,5 @@
-"""The paper's three experiments, run inside a real PyMeshLab chain.
+"""The paper's three experiments, run with PyMeshLab.
 
-`models` and `scan` make the meshes, `story` sends them through the filters, and
-`studio` keeps what comes out.
+`models` and `scan` make the meshes, `experiments` applies the filters, and `recorder` measures and
+saves the results.
 """

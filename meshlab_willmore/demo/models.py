@@ -23,6 +23,12 @@ class Surface(NamedTuple):
     faces: NDArray[np.int32]
 
 
+def surface_of(meshes: pymeshlab.MeshSet) -> Surface:
+    """Copy vertices and faces of the current mesh, with its transformation applied."""
+    mesh = meshes.current_mesh()
+    return Surface(mesh.transformed_vertex_matrix(), mesh.face_matrix())
+
+
 def dented_cube(push: float = 0.05) -> Surface:
     """Return the unit cube with a vertex at each side's centre, pushed inside: model I.
 

@@ -1,1 +1,1 @@
-"""What a person gets to see of a run: a table, pictures, and files that are written whole."""
+"""The demo's table of stages, and its pictures."""

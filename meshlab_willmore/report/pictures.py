@@ -7,15 +7,20 @@ and the lines of the wireframe are as fine as a print's.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+import importlib.util
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from matplotlib.collections import PolyCollection
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from .camera import View, Window, window_of
+if TYPE_CHECKING:
+    from matplotlib.collections import PolyCollection
+    from matplotlib.figure import Figure
 
+Vector = tuple[float, float, float]
+
+# Of the size of the mesh, around it.
+MARGIN = 0.02
 # Lengths on the page, in inches.
 PANEL_WIDTH = 5.0
 CAPTION_HEIGHT = 0.4
@@ -38,6 +43,51 @@ WIRE_SHARE = 0.06
 THINNEST, WIDEST = 0.3, 1.2
 
 
+# --- the camera -----------------------------------------------------------------------------------
+
+
+class Window(NamedTuple):
+    """What part of the picture plane is shown, in the mesh's units."""
+
+    left: float
+    right: float
+    bottom: float
+    top: float
+
+
+class View(NamedTuple):
+    """An orthographic camera.
+
+    rotation (3, 3): its rows are the directions to the right, upwards, and towards the viewer.
+    window: along the first two of these; None shows the whole mesh.
+    """
+
+    rotation: NDArray[np.float64]
+    window: Window | None = None
+
+
+def view_from(direction: Vector, up: Vector, window: Window | None = None) -> View:
+    """Point a camera from `direction` at the origin, with `up` upwards in the picture."""
+    towards = np.array(direction) / np.linalg.norm(direction)
+    right = np.cross(up, towards)
+    right /= np.linalg.norm(right)
+    return View(np.stack([right, np.cross(towards, right), towards]), window)
+
+
+def window_of(vertices: NDArray[np.float64], view: View) -> Window:
+    """Return the view's own window, or one that shows all vertices (n, 3) with a margin."""
+    if view.window is not None:
+        return view.window
+    flat = vertices @ view.rotation[:2].T
+    low, high = flat.min(axis=0), flat.max(axis=0)
+    margin = MARGIN * (high - low).max()
+    (left, bottom), (right, top) = (low - margin).tolist(), (high + margin).tolist()
+    return Window(left, right, bottom, top)
+
+
+# --- the pictures ---------------------------------------------------------------------------------
+
+
 class Shot(NamedTuple):
     """What one column of a comparison shows: vertices (n, 3), faces (m, 3)."""
 
@@ -53,6 +103,11 @@ class Facets(NamedTuple):
     light: NDArray[np.float64]
 
 
+def can_draw() -> bool:
+    """Whether matplotlib is installed, which is optional."""
+    return importlib.util.find_spec("matplotlib") is not None
+
+
 def comparison(before: Shot, after: Shot, view: View) -> Figure:
     """Draw two triangulations of the same vertices: wireframes above, shaded below.
 
@@ -62,6 +117,8 @@ def comparison(before: Shot, after: Shot, view: View) -> Figure:
         With four axes of the same limits: both of `before`, then both of `after`, the wireframe
         first. Ready for `savefig`.
     """
+    from matplotlib.figure import Figure
+
     window = window_of(before.vertices, view)
     panel = PANEL_WIDTH, PANEL_WIDTH * (window.top - window.bottom) / (window.right - window.left)
     page = 2 * panel[0] + GAP, 2 * panel[1] + GAP + CAPTION_HEIGHT
@@ -111,6 +168,8 @@ def _shaded(facets: Facets) -> PolyCollection:
 
 
 def _polygons(facets: Facets, **style: Any) -> PolyCollection:
-    # Annotated as a sequence, but an array is what it draws fast.
+    from matplotlib.collections import PolyCollection
+
+    # Annotated as a sequence, but an array is drawn faster.
     corners: Any = facets.corners
     return PolyCollection(corners, **style)

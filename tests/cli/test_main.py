@@ -15,12 +15,12 @@ import meshlab_willmore
 from meshlab_willmore.cli import main
 
 COMMANDS = ["convert", "demo", "doctor", "filters", "flip", "lint", "measure", "run", "warmup"]
-STORY = "meshlab_willmore.demo.story.tell"
+RUN_DEMO = "meshlab_willmore.demo.experiments.run_demo"
 WHOLE_RUN = """
 import sys
 from meshlab_willmore.cli import main
-from meshlab_willmore.demo import story
-story.FULL_SIZE = story.Sizes(torus_points=200, keep_one_of=60)
+from meshlab_willmore.demo import experiments
+experiments.FULL_SIZE = experiments.Sizes(torus_points=200, keep_one_of=60)
 main(["demo", "--output", sys.argv[1]])
 """
 LIGHT_RUN = """
@@ -48,7 +48,7 @@ def fail_with(monkeypatch, error):
     def fail(*_arguments, **_named):
         raise error
 
-    monkeypatch.setattr(STORY, fail)
+    monkeypatch.setattr(RUN_DEMO, fail)
 
 
 def examples(text):
@@ -216,10 +216,12 @@ def test_demo_in_a_subprocess(tmp_path):
 
 
 def test_default_output_of_demo(monkeypatch, tmp_path):
-    from meshlab_willmore.demo.story import Story
+    from meshlab_willmore.demo.experiments import DemoResult
 
     folders = []
-    monkeypatch.setattr(STORY, lambda folder, say: folders.append(folder) or Story([], []))
+    monkeypatch.setattr(
+        RUN_DEMO, lambda folder, notify: folders.append(folder) or DemoResult([], [])
+    )
     monkeypatch.chdir(tmp_path)
     result = run("demo")
     assert result.exit_code == 0

@@ -5,11 +5,13 @@ import math
 import numpy as np
 import pytest
 
-from meshlab_willmore.compare.reference import Sphere, Surface, Torus, deviation
+from meshlab_willmore.compare.reference import ReferenceMesh, Sphere, Torus, deviation
 from tests import meshes
 
 TORUS = Torus(3.0, 1.0)
-PLANE = Surface(np.array([(-9, -9, 0), (29, -9, 0), (-9, 29, 0)], float), np.array([(0, 1, 2)]))
+PLANE = ReferenceMesh(
+    np.array([(-9, -9, 0), (29, -9, 0), (-9, 29, 0)], float), np.array([(0, 1, 2)])
+)
 
 
 def unit(rows):
@@ -49,7 +51,7 @@ def test_points_beside_a_sphere():
 def test_points_beside_a_mesh():
     vertices, faces = meshes.bumpy_sphere(30)
     points = np.random.default_rng(5).normal(size=(40, 3))
-    distances, normals = Surface(vertices, faces).nearest(points)
+    distances, normals = ReferenceMesh(vertices, faces).nearest(points)
     corners = vertices[faces]
     for point, distance, normal in zip(points, distances, unit(normals), strict=True):
         feet = np.array([closest_on_triangle(point, *triangle) for triangle in corners])
@@ -61,7 +63,7 @@ def test_points_beside_a_mesh():
 
 
 def test_a_point_far_away_has_a_nearest_one_too():
-    distances, _ = Surface(*meshes.cube(push=0.0)).nearest(np.array([[0.5, 0.5, 1e4]]))
+    distances, _ = ReferenceMesh(*meshes.cube(push=0.0)).nearest(np.array([[0.5, 0.5, 1e4]]))
     assert distances == pytest.approx([1e4 - 1.0])
 
 

@@ -8,7 +8,7 @@ from itertools import groupby
 from typing import NamedTuple
 
 DIGITS = 6
-# A double has no more whole digits.
+# A double has no more exact digits.
 HUGE = 1e15
 GAP = "  "
 INDENT = "  "
@@ -37,12 +37,12 @@ HEADER = ("", "faces", "flips", "W", "area", "M", "shape", "seconds")
 
 
 def format_table(stages: Sequence[Stage]) -> str:
-    """Lay the stages out under a heading for each model, with a legend below.
+    """Format the stages as a table, with a heading for each model and a legend below.
 
     Parameters
     ----------
     stages
-        Stages of one model stand next to each other.
+        Stages of one model follow each other.
     """
     rows: list[tuple[str, ...]] = [HEADER]
     for model, group in groupby(stages, key=lambda stage: stage.model):
@@ -75,7 +75,7 @@ def _cells(stage: Stage) -> tuple[str, ...]:
 
 
 def significant(value: float) -> str:
-    """Write a number with six digits, or with all before the point; huge ones with an exponent."""
+    """Format a number with six digits, or all before the point; huge ones with an exponent."""
     if not math.isfinite(value):
         return str(value)
     if abs(value) >= HUGE:

@@ -1,0 +1,145 @@
+"""The paper's experiments as chains of PyMeshLab filters, measured after each stage.
+
+Source: section 4 of "Mesh optimisation based on Willmore energy".
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import NamedTuple
+
+import pymeshlab
+
+from ..mesh.compiling import followed
+from ..options import FILTER
+from ..report.pictures import View, Window, view_from
+from ..report.stages import Stage
+from .models import Surface, dented_cube, sampled_torus, surface_of
+from .recorder import Notify, Recorder
+from .scan import (
+    CLEANING,
+    KEEP_ONE_OF,
+    SMOOTHING,
+    Filters,
+    ScanNotFoundError,
+    scan_file,
+    stretched_triangulation,
+)
+
+FLIPS: Filters = ((FILTER, {}),)
+CUBE_VIEW = view_from((-1.9, -1.0, 1.1), up=(0.0, 0.0, 1.0))
+TORUS_VIEW = view_from((0.0, -1.0, 1.1), up=(0.0, 0.0, 1.0))
+FACE_VIEW = view_from((0.0, 0.0, 1.0), up=(0.0, 1.0, 0.0))
+# The top part of the face, as in Figure 6: from the eyes to the brim of the hat.
+CLOSEUP_VIEW = FACE_VIEW._replace(window=Window(left=-50.0, right=16.0, bottom=-20.0, top=32.0))
+
+Views = dict[str, View]
+
+
+class Sizes(NamedTuple):
+    """Sizes of the models: vertices of the torus; one of how many points of the scan is kept."""
+
+    torus_points: int = 2000
+    keep_one_of: int = KEEP_ONE_OF
+
+
+FULL_SIZE = Sizes()
+
+
+class DemoResult(NamedTuple):
+    """The stages in the order of the table, and the files that were written."""
+
+    stages: list[Stage]
+    files: list[Path]
+
+
+def run_demo(folder: Path, notify: Notify, sizes: Sizes | None = None) -> DemoResult:
+    """Run the three experiments, and write meshes and pictures into a folder.
+
+    Parameters
+    ----------
+    folder
+        Made if it doesn't exist; files of the same name in it are replaced.
+    notify
+        Called with one line for each thing that begins, or that cannot be done.
+    sizes
+        Smaller models, for a quicker run.
+
+    Raises
+    ------
+    OSError
+        If the folder cannot be written into; nothing has been computed then.
+    """
+    sizes = sizes or FULL_SIZE
+    recorder = Recorder(folder, notify)
+    _warm_up(notify)
+    _run_model(recorder, "cube", dented_cube(), {"cube": CUBE_VIEW})
+    torus = sampled_torus(sizes.torus_points)
+    _run_model(recorder, "torus", torus, {"torus": TORUS_VIEW})
+    try:
+        path = scan_file()
+    except ScanNotFoundError as reason:
+        notify(f"no face: {reason}")
+    else:
+        _run_face(recorder, path, sizes.keep_one_of)
+    return DemoResult(recorder.stages, recorder.files)
+
+
+def _run_model(recorder: Recorder, name: str, surface: Surface, views: Views) -> None:
+    """Flip the edges of a model, with meshes and pictures before and after."""
+    meshes = pymeshlab.MeshSet()
+    meshes.add_mesh(pymeshlab.Mesh(*surface), name)
+    _run_flips(recorder, meshes, recorder.run_stage(meshes, name, "initial"), views)
+
+
+def _run_flips(recorder: Recorder, meshes: pymeshlab.MeshSet, initial: Stage, views: Views) -> None:
+    """Flip the current mesh, whose last stage was `initial`; save meshes and pictures."""
+    name = initial.model
+    recorder.save(meshes, f"{name}-before")
+    before = initial, surface_of(meshes)
+    after = recorder.run_stage(meshes, name, "Willmore flips", FLIPS), surface_of(meshes)
+    recorder.save(meshes, f"{name}-after")
+    for picture, view in views.items():
+        recorder.save_picture(picture, before, after, view)
+
+
+def _run_face(recorder: Recorder, path: Path, keep_one_of: int) -> None:
+    """Run the chain on the scan, then on its points as the paper triangulates them."""
+    meshes = pymeshlab.MeshSet()
+    meshes.load_new_mesh(str(path))
+    recorder.run_stage(meshes, "scan", "as scanned")
+    cleaned = recorder.run_stage(meshes, "scan", "cleaned", CLEANING)
+    scan = surface_of(meshes)
+    _run_flips(recorder, meshes, cleaned, views={})
+    recorder.run_stage(meshes, "scan", "Taubin smoothing", SMOOTHING)
+    recorder.save(meshes, "scan-smoothed")
+
+    recorder.notify(
+        "face: the scan's points, Delaunay triangulated in a stretched parameter domain"
+    )
+    face = stretched_triangulation(scan, keep_one_of=keep_one_of)
+    meshes = pymeshlab.MeshSet()
+    meshes.add_mesh(pymeshlab.Mesh(*face), "face")
+    initial = recorder.run_stage(meshes, "face", "initial, cleaned", CLEANING)
+    views = {"face": FACE_VIEW, "face-closeup": CLOSEUP_VIEW}
+    _run_flips(recorder, meshes, initial, views)
+    recorder.run_stage(meshes, "face", "Taubin smoothing", SMOOTHING)
+    recorder.save(meshes, "face-smoothed")
+
+
+def _warm_up(notify: Notify) -> None:
+    """Compile the kernels now, so that the times in the table do not include it."""
+    has_notified = False
+
+    def follow(name: str) -> None:
+        nonlocal has_notified
+        if not has_notified:
+            notify("compiling (the first run only)")
+        has_notified = True
+
+    meshes = pymeshlab.MeshSet()
+    meshes.add_mesh(pymeshlab.Mesh(*dented_cube()))
+    with followed(follow):
+        for name, given in FLIPS:
+            meshes.apply_filter(name, **given)
+        meshes.get_willmore_measures()

@@ -42,38 +42,36 @@ UNIT_STEP, SHORTEST = 16.0, 1e-30
 
 
 class FlipResult(NamedTuple):
-    """What `optimize_flips` returns.
+    """Result of `optimize_flips`.
 
     Attributes
     ----------
     faces : (m, 3) int32
         The new faces, in the slots of the old ones.
     flips : int
-        Number of flips made, those that the search took back left out. With "annealing", whose
-        flips go to and fro, the number of edges that the input did not have.
+        Number of flips, without those that the search took back. With "annealing", whose random
+        flips go back and forth, the number of edges that the input did not have.
     gain : float
-        What the chosen energy has dropped by, in its unit: radians; the coordinates' unit times
+        How much the chosen energy fell, in its unit: radians; the unit of the coordinates times
         radians for "mean curvature", its square for "area", none for "delaunay". The energy
-        "virtual willmore" is no function of the mesh. For it, it is the sum of the flips' cost
+        "virtual willmore" is not a function of the mesh. For it, the gain is the sum of the cost
         reductions with the greedy searches and "variable depth" (which judges chains by the
-        Willmore energy, so that the sum may be negative), and the drop of the Willmore energy, in
-        the form that counts every interior edge, with the other searches.
+        Willmore energy, so that the sum can be negative), and with the other searches the drop of
+        the Willmore energy, in the form that counts every interior edge.
     willmore_before, willmore_after : float
-        Willmore energy of the mesh, as `meshlab_willmore.measure.willmore_energy` gives it: summed
-        over interior vertices. On a mesh with a boundary it leaves out what the edges carry at
-        their ends on the boundary, and can rise although the objective of the flips falls, which
-        is twice the sum of the intersection angles over all interior edges. On a closed mesh the
-        two differ by a constant.
+        Willmore energy of the mesh, as `meshlab_willmore.measure.willmore_energy` returns it:
+        summed over interior vertices. The flips lower twice the sum of the intersection angles over
+        all interior edges. On a closed mesh the two differ by a constant. With a boundary, the
+        Willmore energy leaves out the share of the edges at boundary vertices, and can rise.
     converged : bool
-        True if no allowed flip lowers the energy any more. Allowed is what neither connectivity,
-        locks and guards nor, with "virtual willmore", the rule of the option `monotone` forbid.
-        With True, that rule forbids flips that raise the Willmore energy; with False, flips to an
-        edge that was flipped away before. So there may be flips left that would lower the energy.
-        The search "variable depth" says so of chains of flips. A second run from the result makes
-        no flip then, but: with `monotone` False; with random flips or several starts ("annealing",
-        "thorough"), which may find more; with creases by `featuredeg`, which are looked up anew;
-        and where flips that leave the Willmore energy as it is go round in circles, which is where
-        the search stops after ten rounds.
+        Whether no allowed flip lowers the energy any more (with "variable depth": no allowed chain
+        of flips). Flips are forbidden by the connectivity, by locks and guards and, with "virtual
+        willmore", by the option `monotone`: if True, flips that raise the Willmore energy, if
+        False, flips to an edge that was flipped away before. So other flips may be left that lower
+        the energy. A second run from the result makes no flip, except: with `monotone` False; with
+        "annealing" and "thorough", which may find more; with `featuredeg`, as creases are found in
+        the input; and where flips that keep the Willmore energy go in circles, which the search
+        stops after ten rounds.
     reason : str
         Why it stopped.
     corners : (m, 3) int32
@@ -93,7 +91,7 @@ class FlipResult(NamedTuple):
 
 
 class _Locks(NamedTuple):
-    """Checked arguments that say which edges stay."""
+    """Checked arguments that lock edges."""
 
     featuredeg: float
     selected_faces: np.ndarray | None
@@ -123,10 +121,10 @@ def optimize_flips(
 ):
     """Flip edges of a triangle mesh until no allowed flip lowers the energy any more.
 
-    The vertices stay where they are. Never flipped are boundary and non-manifold edges, edges
-    between faces of opposite orientation, edges whose flipped version exists already, edges whose
-    flip would leave a corner with fewer than three edges (so two triangles alone never flip), and
-    edges next to coincident vertices.
+    The vertices do not move. Never flipped are boundary and non-manifold edges, edges between
+    faces of opposite orientation, edges whose flip would make an edge that exists already or a
+    vertex of valence below three (so two triangles alone never flip), and edges next to coincident
+    vertices.
 
     Parameters
     ----------
@@ -137,7 +135,7 @@ def optimize_flips(
     energy : str
         What to minimise.
 
-        - "virtual willmore": the paper's virtual Willmore energy. It is no function of the mesh.
+        - "virtual willmore": the paper's virtual Willmore energy. It is not a function of the mesh.
         - "willmore": the Willmore energy itself.
         - "uniform virtual willmore": the Willmore energy of the mesh with a virtual vertex in the
           middle of every edge, a function of the mesh.
@@ -147,77 +145,77 @@ def optimize_flips(
         - "delaunay": the cotangents of all angles, which Delaunay triangulations minimise. Those of
           a face without area count as 2**60.
     search : {"parallel greedy", "greedy", "variable depth", "annealing", "thorough"}
-        How to minimise it. "greedy": always the flip of the largest cost reduction in the whole
-        mesh, one by one. "parallel greedy": at the same time all flips that gain more than any
-        other around them, on all cores; much quicker, as good, and the same for any number of
-        threads. "variable depth": "greedy" first, then chains of flips that may go through a loss,
-        until none helps; slower, and far less dependent on the triangulation at the start; on all
-        cores, in parts of large meshes, if there is no limit or guard against cuts. With the
-        virtual Willmore energy, that energy decides where a chain goes, and the Willmore energy
-        whether it helps.
-        "annealing": greedy first, then random flips that may go through a loss, the less so the
-        colder it gets, then greedy again; never worse than "greedy", but seldom worth it: "variable
-        depth" gets lower in the same time, and on large meshes far lower. "thorough": the search
-        "variable depth" from several starts, which are the mesh itself and what greedy flips along
-        other energies make of it; the best of these counts, so it is never worse than "variable
-        depth". For these two, the Willmore energy says what is better where the virtual one is
-        chosen.
+        How to minimise it.
+
+        - "greedy": one flip after another, always the one with the largest cost reduction.
+        - "parallel greedy": at once all flips with a larger cost reduction than any other around
+          them, on all cores; much quicker, as good, and the same for any number of threads.
+        - "variable depth": "greedy" first, then chains of flips that may go through a loss, until
+          no chain helps; slower, and depends far less on the initial triangulation. Large meshes
+          are searched in parts, on all cores, without `maxflips` and `checkintersections`. With the
+          virtual Willmore energy, that energy ranks the flips of a chain, and the Willmore energy
+          decides whether the chain helps.
+        - "annealing": "greedy" first, then random flips that may go through a loss, less so as the
+          temperature falls, then "greedy" again. Never worse than "greedy", but "variable depth"
+          gets lower in the same time, on large meshes far lower.
+        - "thorough": "variable depth" from several starts, which are the mesh itself and the
+          results of greedy flips along other energies; the best result counts.
+
+        With the virtual Willmore energy, the last two compare results by the Willmore energy.
     depth : int
-        Most flips of a chain, 1 to 100; one more at the few places where the triangles are bad.
-        Only for "variable depth" and "thorough". The chains from one edge look at 10,000 edges
-        at most, which is all of them up to six flips at the largest `breadth`.
+        Most flips of a chain, 1 to 100, for "variable depth" and "thorough"; one more at the few
+        places where the triangles are bad. The chains from one edge look at 10,000 edges at most,
+        which is all of them up to six flips at the largest `breadth`.
     breadth : int
-        How many ways each chain of "variable depth" tries at its second flip, 1 to 12; half as
-        many at the third, and so on. 1 is the quickest; more, with more depth, gets out of nearly
-        every local minimum.
+        How many flips each chain tries as its second one, 1 to 12; half as many as the third, and
+        so on. 1 is the quickest; larger values, with more depth, leave nearly every local minimum.
     sweeps : int
-        How slowly "annealing" cools: at each of so many temperatures it tries as many flips as
-        there are edges. Time grows in proportion.
+        Number of temperatures of "annealing"; at each it tries as many flips as there are edges.
+        The time grows in proportion.
     seed : int
-        At least 0: of the random numbers of "annealing". The same seed gives the same result.
+        Seed of the random numbers of "annealing", at least 0. The same seed gives the same result.
     virtualpoint : {"midpoint", "closest"} or float
-        Where on the two diagonals the virtual points are. "midpoint": as in the paper. "closest":
-        where the diagonals pass nearest each other, at least a tenth of each from its ends. A
-        number t in (0, 1): the mean of the costs at t and at 1 - t, so that 0.5 is the midpoint.
-        Only for the energy "virtual willmore".
+        Where on the two diagonals the virtual points are, for the energy "virtual willmore".
+        "midpoint": as in the paper. "closest": where the diagonals pass nearest each other, at
+        least a tenth of each from its ends. A number t in (0, 1): the mean of the costs at t and at
+        1 - t, so that 0.5 is the midpoint.
     monotone : bool
         With "virtual willmore", make no flip that raises the Willmore energy, in the form that
         counts every interior edge: twice the sum of their intersection angles. (With a boundary,
-        that is not the number `willmore_after` of the result, which may rise; see there.) The paper
-        has no such rule; without it, an edge that was flipped away never comes back, as the search
-        might not end otherwise. With "variable depth" the rule holds for each chain as a whole.
-        Other energies go down with each flip, and need no rule.
+        `willmore_after` of the result may rise all the same.) The paper has no such rule. Without
+        it, an edge that was flipped away never comes back, as the search might not end otherwise.
+        With "variable depth" the rule holds for each chain as a whole. All flips lower the other
+        energies, which need no rule.
     foldangle : float
         Degrees in [0, 180]. Refuse flips to an edge with a larger dihedral angle (0 is flat) than
         this and than the old edge, and flips to a sliver (shape below 0.05 and below the worse old
         one). 180: allow all.
     checkintersections : bool
-        Refuse flips that make one of the two new faces cut any other face of the mesh: to touch it
-        without a common vertex, or to share more with it than their common vertices, is to cut it.
-        Cuts that the mesh has already may stay or go. What MeshLab counts as self-intersecting
-        faces never grows either.
+        Refuse flips after which one of the two new faces intersects another face of the mesh:
+        touches it without a common vertex, or has more in common with it than common vertices.
+        Existing intersections may stay or go. The number of faces that MeshLab counts as
+        self-intersecting never grows either.
     featuredeg : float
-        Degrees in [0, 180]. Keep edges whose dihedral angle in the input is this or more, up to
-        0.01 degrees either way: at 30, the sides of a cylinder with twelve of them stay. 0: keep
-        all but those between coplanar faces. 180: keep none. The edges of a
-        sliver (shape below 1e-5) are not kept: its normal is made of the rounding of its
-        coordinates, so that they would be sharp or not by chance, and it could never be flipped
-        away.
+        Degrees in [0, 180]. Keep edges whose dihedral angle in the input is this or more, to within
+        0.01 degrees: at 30, the sides of a cylinder with twelve of them stay. 0: keep all but those
+        between coplanar faces. 180: keep none. The edges of a sliver (shape below 1e-5) are not
+        kept: its normal is rounding noise, so that they would be sharp by chance, and the sliver
+        could never be flipped away.
     selected_faces : (m,) array_like of bool, optional
         Flip only edges between two selected faces.
     locked_edges : (e, 2) array_like of int, optional
         Vertex pairs of edges to keep.
     wedge_uv : (m, 3, 2) array_like of float, optional
         Texture coordinates of the corners of each face; with (m, 3, 4) those of two mappings, and
-        so on. Seams are kept, which are edges whose two faces have other coordinates at one of its
-        ends. No flip turns a texture triangle over or makes it flat: those of positive and of
-        negative area never get fewer, flat ones never more. Faces without a mapping, which have all
-        corners at one point, are flipped among themselves; faces with a coordinate that is not
-        finite stay. Those of the new faces are ``wedge_uv.reshape(-1, 2)[result.corners]``.
+        so on. Seams are kept: edges whose two faces have different coordinates at one of the ends.
+        No flip inverts a texture triangle or makes it flat: there are never fewer of positive or of
+        negative area, and never more flat ones. Faces without a mapping, which have all corners at
+        one point, are flipped among themselves; faces with a coordinate that is not finite stay.
+        The coordinates of the new faces are ``wedge_uv.reshape(-1, 2)[result.corners]``.
     maxflips : int, optional
-        Stop after so many flips, or before a chain that would exceed them. With "annealing" its
-        random flips count, all of them. Every search begins with greedy flips, and ends with these
-        if the limit is reached there.
+        Stop after so many flips, or before a chain that would exceed them. With "annealing" all
+        random flips count. Every search begins with greedy flips, and ends with them if the limit
+        is reached there.
 
     Returns
     -------
@@ -227,10 +225,10 @@ def optimize_flips(
     Raises
     ------
     TypeError
-        Arrays or options of a wrong type.
+        If arrays or options have a wrong type.
     ValueError
-        Wrong shapes or ranges, coordinates that are not finite, faces with a repeated vertex,
-        locked pairs that are no edges, unknown names.
+        If shapes, ranges or names are wrong, coordinates are not finite, a face has a repeated
+        vertex, or a locked pair is no edge.
 
     Notes
     -----

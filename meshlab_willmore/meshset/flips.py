@@ -8,7 +8,7 @@ from typing import Any
 
 import pymeshlab
 
-from ..options import ENERGY, FILTER, NO_LIMIT, OPTIONS, SEARCH, VIRTUALPOINT, Option
+from ..options import ALLOWLOSS, FILTER, NO_LIMIT, OPTIONS, SELECTION, VIRTUALPOINT, Option
 from . import edge_flags, exchange, ids, interrupts, native
 from .filter import Filter, current_surface
 from .parameters import Parameter
@@ -29,12 +29,12 @@ def _limit(maxflips: int) -> int | None:
 
 
 def _place(text: str) -> str | float:
-    """Where the virtual points are: a name, or the number that the text is."""
+    """Where the virtual points are: a name, or a number that was given as text."""
     value: str | float = text
     with suppress(ValueError):
         value = float(text)
-    part: str | float = VIRTUALPOINT.checked(value)
-    return part
+    place: str | float = VIRTUALPOINT.checked(value)
+    return place
 
 
 def _parameter(option: Option) -> Parameter:
@@ -50,7 +50,7 @@ def _parameter(option: Option) -> Parameter:
     )
 
 
-# Where the filter and `optimize_flips` take other values.
+# For these the filter and `optimize_flips` take different values.
 _CHANGES: dict[str, dict[str, Any]] = {
     "selection": {"default": _has_selected_faces},
     "virtualpoint": {"check": _place},
@@ -75,26 +75,16 @@ def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any]
             f"The mesh has data that would be lost: {'; '.join(snapshot.unsupported)}. "
             "Nothing was changed. allowloss=True goes ahead without them."
         )
-    maxflips = _limit(values["maxflips"])
+    core = [p for p in _PARAMETERS if p.name not in (SELECTION.name, ALLOWLOSS.name)]
+    given = {p.name: p.core_value(values[p.name]) for p in core}
     with interrupts.kept():
         result = optimize_flips(
             snapshot.vertices,
             snapshot.faces,
-            energy=ENERGY.choices[values["energy"]],
-            search=SEARCH.choices[values["search"]],
-            depth=values["depth"],
-            breadth=values["breadth"],
-            sweeps=values["sweeps"],
-            seed=values["seed"],
-            virtualpoint=_place(values["virtualpoint"]),
-            checkintersections=values["checkintersections"],
-            monotone=values["monotone"],
-            foldangle=values["foldangle"],
-            featuredeg=values["featuredeg"],
             selected_faces=snapshot.selected_faces if values["selection"] else None,
             locked_edges=edge_flags.fixed_edges(snapshot),
             wedge_uv=snapshot.wedge_uv,
-            maxflips=maxflips,
+            **given,
         )
     if result.flips:
         flipped = exchange.with_faces(snapshot, result.faces, result.corners)
@@ -113,19 +103,18 @@ def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any]
 
 
 _RETURNS = (
-    ("flips", "int", "Number of flips; with 'annealing' of edges that are new."),
+    ("flips", "int", "Number of flips; with 'annealing', of new edges."),
     (
         "gain",
         "float",
-        "What the energy has dropped by, in its unit; for 'virtual willmore' the sum over the "
-        "flips with the greedy searches and 'variable depth', else the drop of the Willmore "
-        "energy.",
+        "How much the energy fell, in its unit; for 'virtual willmore' the sum over the flips with "
+        "the greedy searches and 'variable depth', else the drop of the Willmore energy.",
     ),
     ("willmore_before", "float", "Willmore energy before, over interior vertices, in radians."),
     ("willmore_after", "float", "Willmore energy after, over interior vertices, in radians."),
-    ("converged", "bool", "Whether no allowed flip is left that helps."),
+    ("converged", "bool", "Whether no allowed flip lowers the energy any more."),
     ("seconds", "float", "Time spent."),
-    ("mesh_id", "int", "Id of the current mesh, which the flips leave as it is."),
+    ("mesh_id", "int", "Id of the current mesh, which the flips do not change."),
 )
 
 FLIPS = Filter(
@@ -133,12 +122,12 @@ FLIPS = Filter(
     "Willmore flipping optimization",
     "Mesh optimization by edge flipping, to make the surface locally as near to a sphere as its "
     "vertices allow.",
-    "Edges are flipped as long as that lowers an energy, by default a discrete Willmore energy "
+    "Edges are flipped as long as this lowers an energy, by default a discrete Willmore energy "
     "(Bobenko), measured with virtual points in the middle of the edges, as in 'Mesh optimisation "
     "based on Willmore energy'. Vertices never move. Boundary and non-manifold edges, texture "
-    "seams stay, and so do polygons; meshing_poly_to_tri makes triangles of them. Where faces or "
-    "vertices have texture coordinates, no flip turns a texture triangle over or makes it flat. "
-    "The flipped mesh keeps its id and its place, but in PyMeshLab's own list it goes to the end: "
+    "seams and polygons stay; meshing_poly_to_tri makes triangles of polygons. Where faces or "
+    "vertices have texture coordinates, no flip inverts a texture triangle or makes it flat. The "
+    "flipped mesh keeps its id and its place, but in PyMeshLab's own list it goes to the end: "
     "merging visible meshes then gives another order of vertices and faces.",
     _PARAMETERS,
     _RETURNS,

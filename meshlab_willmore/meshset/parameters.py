@@ -14,7 +14,7 @@ LEAST_INT, MOST_INT = -(2**31), 2**31 - 1
 
 
 class ParameterTypeError(pymeshlab.PyMeshLabException, RuntimeError):
-    """A value of a type that the parameter can't take; native filters raise `RuntimeError`."""
+    """A value has a type that the parameter can't take; native filters raise `RuntimeError`."""
 
 
 class Parameter(NamedTuple):
@@ -27,15 +27,15 @@ class Parameter(NamedTuple):
     type : type
         bool, int, float, or str: an enum where there are choices, else a text.
     default : object or callable
-        The default; a callable gets the set, or None where there is no mesh to ask. (Not the mesh:
-        an exception on the way would keep it held.)
+        The default, or a function of the mesh set, which is None where there is no mesh. (Of the
+        set, as an exception would keep a reference to the mesh.)
     label, tooltip : str
         What MeshLab would write beside and over the field.
     choices : tuple of str
         The values of an enum.
     check : callable, optional
-        Gets a value and raises `ValueError` if it is out of range. For scripts, which are checked
-        before they run; the filter itself checks what it gets anyway.
+        Gets a value that was read, and returns it as functions on arrays take it. Raises
+        `ValueError` if it is out of range, also for scripts, which are checked before they run.
     """
 
     name: str
@@ -58,6 +58,12 @@ class Parameter(NamedTuple):
             return f"'{value}'"
         return f"{value:g}" if self.type is float else str(value)
 
+    def core_value(self, value: Any) -> Any:
+        """A value that was read, as functions on arrays take it, or a `ValueError`."""
+        if self.choices:
+            return self.choices[value]
+        return value if self.check is None else self.check(value)
+
     def _expected(self) -> str:
         if self.type is str:
             return f"one of {self._listed()}" if self.choices else "a text or a number"
@@ -68,7 +74,7 @@ class Parameter(NamedTuple):
         return ", ".join(f"{index} '{choice}'" for index, choice in enumerate(self.choices))
 
     def read(self, value: Any) -> Any:
-        """The value that a caller gave, in the parameter's own type; an enum's index.
+        """The given value in the parameter's own type; the index of an enum.
 
         Raises
         ------
@@ -115,7 +121,7 @@ def _read_str(parameter: Parameter, value: Any) -> int | str:
 
 
 def _read_text(value: Any) -> str:
-    """A text; a number, which a text may stand for, is written with all its digits."""
+    """A text; a number, which is a text too, is written with all its digits."""
     if isinstance(value, str):
         return value
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
@@ -165,7 +171,7 @@ def read_all(
     Raises
     ------
     pymeshlab.PyMeshLabException
-        For a keyword that is no parameter, with PyMeshLab's own words.
+        For a keyword that is no parameter, with PyMeshLab's own message.
     """
     values = {parameter.name: parameter.default_for(ms) for parameter in parameters}
     by_name = {parameter.name: parameter for parameter in parameters}

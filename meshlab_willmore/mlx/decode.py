@@ -1,7 +1,7 @@
-"""The file of a script as XML text: its encoding, and what MeshLab's parser reads though no XML is.
+"""The file of a script as XML text: its encoding, and what MeshLab reads though it is not XML.
 
-MeshLab needs no blank between attributes, and takes the same attribute twice; MeshLabXML, which
-wrote many of the scripts about, did both.
+MeshLab needs no blank between attributes, and takes the same attribute twice. MeshLabXML, which
+wrote many of the existing scripts, did both.
 """
 
 from __future__ import annotations

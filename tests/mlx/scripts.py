@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
+import pytest
 from hypothesis import strategies as st
 
 from meshlab_willmore.mlx import rich
-from meshlab_willmore.mlx.steps import Param, Percentage, Step
+from meshlab_willmore.mlx.read import read_bytes
+from meshlab_willmore.mlx.steps import Param, Percentage, ScriptError, Step
 
 
 def script(body: str) -> bytes:
@@ -24,6 +28,20 @@ def element(**attributes: str) -> str:
 def one_param(**attributes: str) -> bytes:
     """A script of one filter F with one `element`."""
     return script(f'<filter name="F">{element(**attributes)}</filter>')
+
+
+def cases(corpus: Iterable[tuple[str, bytes, str]]) -> pytest.MarkDecorator:
+    """Parametrise a test by named scripts and the text of the only fault of each."""
+    params = [pytest.param(data, text, id=name) for name, data, text in corpus]
+    return pytest.mark.parametrize(("data", "text"), params)
+
+
+def error_of(data: bytes) -> str:
+    """The message of the error that reading a script raises."""
+    with pytest.raises(ScriptError) as caught:
+        read_bytes(data, "s.mlx")
+    assert caught.value.source == "s.mlx"
+    return str(caught.value)
 
 
 texts = st.text(

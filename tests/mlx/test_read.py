@@ -1,8 +1,6 @@
-import codecs
 from pathlib import Path
 
 import pymeshlab
-import pytest
 
 from meshlab_willmore.mlx.read import read, read_bytes
 from meshlab_willmore.mlx.steps import Param, Percentage, Step
@@ -87,32 +85,6 @@ def test_the_same_parameter_may_stand_in_two_steps():
     body = '<filter name="F"><Param name="p" type="RichInt" value="1"/></filter>'
     step = Step("F", (Param("p", "RichInt", 1),))
     assert read_bytes(script(body * 2), "s") == (step, step)
-
-
-@pytest.mark.parametrize(
-    ("encoding", "declared", "mark"),
-    [
-        ("utf-8", "", b""),
-        ("utf-8", "UTF-8", b""),
-        ("utf-8", "", codecs.BOM_UTF8),
-        ("utf-8", "UTF-8", codecs.BOM_UTF8),
-        ("utf-16", "", b""),
-        ("utf-16", "UTF-16", b""),
-        ("utf-16-be", "", codecs.BOM_UTF16_BE),
-        ("utf-16-le", "", b""),
-        ("utf-16-be", "UTF-16", b""),
-        ("utf-32", "", b""),
-        ("latin-1", "ISO-8859-1", b""),
-        ("cp1252", "Windows-1252", b""),
-        ("shift_jis", "Shift_JIS", b""),
-        ("gb18030", "GB18030", b""),
-    ],
-)
-def test_a_script_is_read_in_its_encoding(encoding, declared, mark):
-    name = "日本" if encoding in ("shift_jis", "gb18030") else "Fläche é"
-    start = f'<?xml version="1.0" encoding="{declared}"?>' if declared else ""
-    text = f'{start}<FilterScript>\n<filter name="{name}"/></FilterScript>'
-    assert read_bytes(mark + text.encode(encoding), "s") == (Step(name),)
 
 
 def test_the_place_of_the_file_may_be_a_str_or_a_path(tmp_path):

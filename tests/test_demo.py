@@ -116,7 +116,7 @@ def cleaned():
     return surface_of(meshes)
 
 
-def test_cleaned_scan_has_one_place_in_the_scanners_plane(cleaned):
+def test_the_cleaned_scan_is_one_to_one_in_the_scanners_plane(cleaned):
     assert len(cleaned.faces) > 160_000
     assert (signed_areas(scanner_plane(cleaned.vertices), cleaned.faces) > 0).all()
 
@@ -126,7 +126,7 @@ def face(cleaned):
     return stretched_triangulation(cleaned, stretch=3.0, keep_one_of=60)
 
 
-def test_face_stands_on_points_of_the_scan(cleaned, face):
+def test_vertices_of_the_face_are_points_of_the_scan(cleaned, face):
     known = {point.tobytes() for point in cleaned.vertices}
     chosen = {point.tobytes() for point in face.vertices}
     assert chosen <= known
@@ -323,7 +323,7 @@ def test_the_demo_goes_on_without_the_scan(no_scan, tmp_path):
 
 
 @pytest.mark.heavy
-def test_without_matplotlib_meshes_and_table_still_come(no_scan, monkeypatch, tmp_path):
+def test_without_matplotlib_there_are_meshes_and_the_table(no_scan, monkeypatch, tmp_path):
     for name in [name for name in sys.modules if name.partition(".")[0] == "matplotlib"]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "matplotlib", None)
@@ -339,7 +339,7 @@ def test_without_matplotlib_meshes_and_table_still_come(no_scan, monkeypatch, tm
     ]
 
 
-def test_nothing_is_computed_for_a_folder_that_cannot_be(monkeypatch, tmp_path):
+def test_nothing_is_computed_for_a_folder_that_cannot_be_written(monkeypatch, tmp_path):
     monkeypatch.setattr("meshlab_willmore.demo.experiments.FLIPS", None)
     taken = tmp_path / "taken"
     taken.touch()

@@ -1,4 +1,4 @@
-"""Files that are written whole, over files only, and folders that can be written into."""
+"""Files that are written atomically and replace regular files only, and folders."""
 
 import os
 import socket
@@ -13,7 +13,7 @@ from meshlab_willmore.files import atomic_write, replace, special, writable_fold
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="pipes, sockets and links of POSIX")
 
 
-def test_a_file_appears_whole_and_with_its_ending(tmp_path):
+def test_a_file_is_written_atomically_under_its_name(tmp_path):
     path = tmp_path / "mesh.ply"
     with atomic_write(path) as beside:
         assert beside.parent.parent == tmp_path
@@ -24,7 +24,7 @@ def test_a_file_appears_whole_and_with_its_ending(tmp_path):
     assert list(tmp_path.iterdir()) == [path]
 
 
-def test_after_an_error_the_older_file_is_as_it_was(tmp_path):
+def test_after_an_error_the_existing_file_is_unchanged(tmp_path):
     path = tmp_path / "mesh.ply"
     path.write_text("old")
 
@@ -110,7 +110,7 @@ def test_nothing_but_a_file_is_replaced(nodes, name, link):
 
 @POSIX
 @pytest.mark.parametrize("name", ["pipe", "to-pipe"])
-def test_a_pipe_gets_the_data_from_whom_it_is_read(nodes, name):
+def test_a_pipe_gets_the_data(nodes, name):
     end = os.open(nodes / "pipe", os.O_RDONLY | os.O_NONBLOCK)
     write(nodes / name, b"all of it")
     assert os.read(end, 100) == b"all of it"
@@ -160,7 +160,7 @@ def test_a_link_that_leads_nowhere_leads_to_the_new_file(tmp_path):
         write(other, b"new")
 
 
-def test_a_file_of_somebody_else_beside_is_left_alone(tmp_path):
+def test_other_files_in_the_folder_are_left_alone(tmp_path):
     mine = tmp_path / f".mesh.{os.getpid()}.ply"
     mine.write_text("mine")
     with atomic_write(tmp_path / "mesh.ply") as beside:

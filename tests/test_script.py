@@ -34,7 +34,7 @@ def faces(ms):
     return ms.current_mesh().face_matrix()
 
 
-def test_a_script_runs_and_tells_what_each_step_did(bumpy, tmp_path):
+def test_a_script_runs_and_reports_what_each_step_did(bumpy, tmp_path):
     smooth = Step("Taubin Smooth", (Param("stepSmoothNum", "RichInt", 2),))
     path = written(tmp_path, FLIPS, smooth, Step("Willmore measures"))
     heard = []
@@ -163,13 +163,13 @@ def test_all_faults_are_found_and_nothing_runs(bumpy, tmp_path):
     np.testing.assert_array_equal(faces(bumpy), before)
 
 
-def test_check_tells_of_files_that_cannot_be_read(tmp_path):
+def test_check_reports_files_that_cannot_be_read(tmp_path):
     (fault,) = script.check(tmp_path / "nowhere.mlx")
     assert isinstance(fault, Fault)
     assert "no such file" in str(fault).lower()
 
 
-def test_a_step_that_fails_is_named_and_the_ones_before_it_count(bumpy):
+def test_a_step_that_fails_is_named_and_the_ones_before_it_stay_done(bumpy):
     failing = Step("Harmonic Parametrization")
     with pytest.raises(pymeshlab.PyMeshLabException) as caught:
         script.run([FLIPS, failing, Step("Taubin Smooth")], bumpy)
@@ -212,7 +212,7 @@ def test_files_can_be_read_and_written_after_a_step_failed(tmp_path):
     assert (run.returncode, run.stdout) == (0, "1\n")
 
 
-def test_markup_of_native_messages_is_for_windows():
+def test_native_messages_lose_their_markup():
     ms = pymeshlab.MeshSet()
     ms.add_mesh(pymeshlab.Mesh(np.random.default_rng(0).random((9, 3))))
     with pytest.raises(pymeshlab.PyMeshLabException) as caught:
@@ -225,7 +225,7 @@ def test_markup_of_native_messages_is_for_windows():
         script.run([condition], ms)
 
 
-def test_a_script_is_written_in_meshlabs_words(tmp_path):
+def test_a_script_is_written_with_meshlabs_names(tmp_path):
     """PyMeshLab's names are for Python; neither MeshLab nor native scripts know them."""
     step = Step("create_sphere", (Param("subdiv", "", "2"), Param("radius", "RichFloat", 3.0)))
     unknown = Step("Unheard of", (Param("x", "RichInt", 1, (("tooltip", "t"),)),))

@@ -39,7 +39,7 @@ def test_without_a_reference_there_is_no_deviation():
     assert (found.normal_error, found.distance, found.flips) == (None, None, 0)
 
 
-def test_faces_that_cut_others_are_counted():
+def test_faces_that_intersect_others_are_counted():
     vertices, faces = meshes.cube()
     both = np.vstack([vertices, vertices + (0.5, 0.3, 0.2)])
     cut = quality_of(set_of(both, np.vstack([faces, faces + len(vertices)])), faces, None)

@@ -203,7 +203,7 @@ def test_scalar_changes_nothing_else(bumpy):
     assert_scalar_is_willmore_energy(bumpy)
 
 
-def test_scalar_tells_coincident_vertices_apart():
+def test_coincident_vertices_keep_their_own_scalars():
     """Two bumpy spheres share a point, but not the vertex there: it has two energies."""
     vertices, faces = meshes.bumpy_sphere(40)
     other, _ = meshes.bumpy_sphere(40, seed=5)

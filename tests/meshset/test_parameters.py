@@ -52,7 +52,7 @@ def test_float(value):
 def test_wrong_types_are_named(parameter, value):
     with pytest.raises(ParameterTypeError, match=f"Parameter {parameter.name}"):
         parameter.read(value)
-    # Native filters raise RuntimeError here: whoever catches that catches this too.
+    # Native filters raise RuntimeError here: code that catches it catches this too.
     with pytest.raises(RuntimeError):
         parameter.read(value)
 
@@ -87,7 +87,7 @@ def test_enum_name_errors_name_the_parameter_in_the_words_of_native_filters(bump
 
 
 @pytest.mark.parametrize("value", [0.5, None, b"a", ["a"]])
-def test_a_value_of_a_wrong_type_for_an_enum_is_told_the_choices(value):
+def test_a_value_of_a_wrong_type_for_an_enum_names_the_choices(value):
     with pytest.raises(ParameterTypeError, match="kind: .*, one of 0 'a', 1 'b' is expected"):
         KIND.read(value)
 

@@ -229,7 +229,7 @@ def test_a_text_of_several_lines_is_one_fault():
     assert caught.value.faults == (Fault("text 'Invert' in <FilterScript> (line 3) is never read"),)
 
 
-def test_faults_before_broken_xml_are_told_too():
+def test_faults_before_broken_xml_are_reported_too():
     with pytest.raises(ScriptError) as caught:
         read_bytes(script('<filter/><filter name="a">'), "s")
     first, second = caught.value.faults
@@ -268,7 +268,7 @@ def test_long_and_broken_words_stay_on_one_short_line():
 
 
 @given(st.data(), st.binary(max_size=6) | st.sampled_from(PIECES))
-def test_damage_anywhere_is_told_or_harmless(data, piece):
+def test_damage_anywhere_is_reported_or_harmless(data, piece):
     whole = one_param(kind="RichEnum", value="1", enum_cardinality="2", tooltip="a &lt;b&gt;")
     start = data.draw(st.integers(0, len(whole)))
     end = data.draw(st.integers(start, min(start + 8, len(whole))))

@@ -181,7 +181,7 @@ def test_repeated_attributes_that_differ_are_a_fault():
         "a='1'b='2'",
     ],
 )
-def test_what_is_no_such_element_stays(text):
+def test_other_text_is_unchanged(text):
     assert as_xml(text) == text
 
 

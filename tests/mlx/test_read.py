@@ -81,13 +81,13 @@ def test_attributes_of_any_name_are_kept():
     assert read_bytes(to_xml([step]).encode(), "s") == (step,)
 
 
-def test_the_same_parameter_may_stand_in_two_steps():
+def test_the_same_parameter_may_be_in_two_steps():
     body = '<filter name="F"><Param name="p" type="RichInt" value="1"/></filter>'
     step = Step("F", (Param("p", "RichInt", 1),))
     assert read_bytes(script(body * 2), "s") == (step, step)
 
 
-def test_the_place_of_the_file_may_be_a_str_or_a_path(tmp_path):
+def test_the_path_may_be_a_str_or_a_path(tmp_path):
     path = tmp_path / "s.mlx"
     path.write_bytes(script('<filter name="F"/>'))
     assert read(path) == read(str(path)) == (Step("F"),)

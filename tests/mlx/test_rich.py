@@ -187,7 +187,7 @@ def test_details_can_not_break_the_element(key, problem):
         rich.attributes(param)
 
 
-def test_every_type_is_tested():
+def test_there_are_values_of_every_type():
     assert set(rich.TYPES) == set(scripts.VALUES)
 
 

@@ -180,7 +180,7 @@ def test_a_filter_without_a_proper_name_is_not_written(steps, fault):
     assert caught.value.faults == (fault,)
 
 
-def test_a_script_is_written_whole_or_not_at_all(tmp_path):
+def test_a_script_is_written_atomically(tmp_path):
     path = tmp_path / "s.mlx"
     write(path, [Step("Before")])
     with pytest.raises(ScriptError):
@@ -191,14 +191,14 @@ def test_a_script_is_written_whole_or_not_at_all(tmp_path):
     assert [file.name for file in tmp_path.iterdir()] == ["s.mlx"]
 
 
-def test_a_place_that_can_not_be_written_is_named(tmp_path):
+def test_a_path_that_can_not_be_written_is_named(tmp_path):
     path = tmp_path / "none" / "s.mlx"
     problem = re.escape(f"cannot write {path}: No such file or directory")
     with pytest.raises(OSError, match=f"^{problem}$"):
         write(path, [])
 
 
-def test_a_full_disk_leaves_the_older_script(tmp_path, monkeypatch):
+def test_a_full_disk_leaves_the_existing_script(tmp_path, monkeypatch):
     path = tmp_path / "s.mlx"
     write(path, [Step("Before")])
 

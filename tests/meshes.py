@@ -173,3 +173,15 @@ def outward(vertices, simplices):
     faces = simplices.copy()
     faces[inward] = faces[inward][:, ::-1]
     return faces.astype(np.int32)
+
+
+# One of each kind that an energy meets.
+SMALL = {
+    "closed": bumpy_sphere(24),
+    "boundary": patch(20),
+    "flat boundary": patch(20, height=0.0),
+    "cube": cube(),
+    "moebius band": moebius_band(),
+    "fin": fin()[:2],
+    "bow tie": bow_tie(),
+}

@@ -9,18 +9,11 @@ from meshlab_willmore.energy import virtual, willmore
 from meshlab_willmore.mesh.build import build, faces_of
 from meshlab_willmore.mesh.halfedge import apex, can_flip, flip
 from tests import meshes, reference
+from tests.meshes import SMALL as MESHES
 
 ENERGIES = {
     "willmore": (willmore.cost_reduction, reference.willmore_reduction),
     "virtual willmore": (virtual.cost_reduction, reference.virtual_reduction),
-}
-MESHES = {
-    "closed": meshes.bumpy_sphere(24),
-    "boundary": meshes.patch(20),
-    "flat boundary": meshes.patch(20, height=0.0),
-    "cube": meshes.cube(),
-    "moebius band": meshes.moebius_band(),
-    "fin": meshes.fin()[:2],
 }
 ROUNDING = 2e-13
 EXTENDED = np.finfo(np.longdouble).eps < np.finfo(float).eps

@@ -22,6 +22,7 @@ from meshlab_willmore.mesh.halfedge import apex, can_flip, flip
 from meshlab_willmore.mesh.points import Point
 from tests import meshes, reference
 from tests.fuzz import energies
+from tests.meshes import SMALL as MESHES
 
 ENERGIES = {
     "area": (area, reference.area),
@@ -37,15 +38,6 @@ POWERS = {
     "gaussian curvature": 0,
     "delaunay": 0,
     "uniform virtual willmore": 0,
-}
-MESHES = {
-    "closed": meshes.bumpy_sphere(24),
-    "boundary": meshes.patch(20),
-    "flat boundary": meshes.patch(20, height=0.0),
-    "cube": meshes.cube(),
-    "moebius band": meshes.moebius_band(),
-    "fin": meshes.fin()[:2],
-    "bow tie": meshes.bow_tie(),
 }
 ROUNDING = 1e-15
 # No flip turns a face of a flat mesh over.

@@ -11,15 +11,8 @@ from meshlab_willmore.mesh.build import build
 from meshlab_willmore.mesh.halfedge import Diamond, can_flip, diamond, flip
 from meshlab_willmore.mesh.points import Point
 from tests import meshes, reference
+from tests.meshes import SMALL as MESHES
 
-MESHES = {
-    "closed": meshes.bumpy_sphere(24),
-    "boundary": meshes.patch(20),
-    "flat boundary": meshes.patch(20, height=0.0),
-    "cube": meshes.cube(),
-    "moebius band": meshes.moebius_band(),
-    "fin": meshes.fin()[:2],
-}
 ROUNDING = 2e-13
 MARGIN = virtual_closest.MARGIN
 

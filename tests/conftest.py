@@ -26,13 +26,18 @@ os.environ["LC_ALL"] = "C.UTF-8"
 JIT_IS_OFF = os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0")
 IS_WORKER = "PYTEST_XDIST_WORKER" in os.environ
 # States of the sources whose kernels are kept.
-KEPT = 8
+KEPT = 16
 WARM_UP = """
-import pathlib
+import contextlib, pathlib
 from meshlab_willmore.mesh.jit import cache_folder
 from meshlab_willmore.mesh.workers import core_count
 from meshlab_willmore.warmup import warm_up
 mark = pathlib.Path(cache_folder()).parent / "warm"
+lock = open(mark.with_name("lock"), "w")
+with contextlib.suppress(ImportError):
+    # A run that begins while another one compiles the same waits for it. Not on Windows.
+    import fcntl
+    fcntl.flock(lock, fcntl.LOCK_EX)
 if not mark.exists():
     print("Compiling all kernels, this takes some minutes ...", flush=True)
     print(f"compiled {warm_up(lambda line: None, core_count()).compiled}")

@@ -87,7 +87,7 @@ def classes():
 
 @jit
 def _is_side_of_cone(a, b, directions):
-    """Tell whether the cone of the directions has a face from a to b, all others to its left."""
+    """Whether the cone of the directions has a face from a to b, all others to its left."""
     n = cross(a, b)
     if norm(n) <= FLAT:
         return False

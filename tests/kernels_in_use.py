@@ -40,7 +40,7 @@ def _plain_functions():
 
 
 def _named_in(function):
-    """What the names in a function stand for, also those in modules that it names."""
+    """The values of the names in a function, also of those in modules that it names."""
     names = {name for code in _codes(function.__code__) for name in code.co_names}
     values = [function.__globals__.get(name) for name in names]
     modules = [value for value in values if isinstance(value, types.ModuleType)]

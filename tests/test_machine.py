@@ -107,7 +107,7 @@ def test_a_temporary_folder_is_there_and_then_gone():
     assert not folder.exists()
 
 
-def test_too_little_room_is_told_before_anything_is_written():
+def test_too_little_room_is_reported_before_anything_is_written():
     with pytest.raises(RoomError) as caught, machine.temporary_folder(2**62):
         raise AssertionError("something was begun")
     place = Path(tempfile.gettempdir())
@@ -117,8 +117,8 @@ def test_too_little_room_is_told_before_anything_is_written():
     assert str(caught.value).endswith(" are free; mend it with: export TMPDIR=/a/folder/with/room")
 
 
-def test_whoever_runs_out_of_room_the_folder_is_named(monkeypatch, tmp_path):
-    """A native writer tells nothing: what reads its file finds it cut short."""
+def test_any_writer_that_runs_out_of_room_names_the_folder(monkeypatch, tmp_path):
+    """A native writer raises nothing: what reads its file finds it cut short."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
 
     def refuse(**_given):
@@ -161,7 +161,7 @@ def test_the_machines_fault_is_found_behind_others():
     assert isinstance(fault, MachineError)
 
 
-def test_the_inner_of_two_folders_tells_how_much_is_needed(monkeypatch):
+def test_the_error_of_the_inner_of_two_folders_says_how_much_is_needed(monkeypatch):
     monkeypatch.setattr(machine, "_is_full", lambda folder: True)
 
     def step():

@@ -143,7 +143,7 @@ def test_without_a_compiler_or_a_cache_there_is_an_error(monkeypatch):
         warmup.warm_up(print)
 
 
-def test_a_full_disk_is_told_with_the_folder(monkeypatch):
+def test_the_error_on_a_full_disk_names_the_folder(monkeypatch):
     def fail():
         warmup.write_errors.append(OSError(28, "No space left on device"))
 

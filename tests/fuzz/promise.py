@@ -88,7 +88,7 @@ def _sectors(faces, barred):
     -------
     dict
         For each corner (f, c) a label: the vertex, the half-edges at it that bound the group, and
-        the least corner of the group, which tells apart groups without such.
+        the least corner of the group, which distinguishes groups without such.
     """
     faces = np.asarray(faces).tolist()
     corner_at = {}

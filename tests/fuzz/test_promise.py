@@ -42,7 +42,7 @@ def test_a_face_with_a_vertex_twice():
 
 def test_a_vertex_that_is_torn():
     """Two closed surfaces that come to meet at a vertex: every edge still has two faces."""
-    # Before, another pair meets at vertex 12: so no number of vertices or edges tells.
+    # Before, another pair meets at vertex 12: so no number of vertices or edges shows it.
     first, second, third, fourth = (FACES + shift for shift in (0, 6, 12, 18))
     before = np.vstack([first, second, third, np.where(FACES == 0, 12, fourth)])
     torn = np.vstack(

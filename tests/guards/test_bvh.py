@@ -84,7 +84,7 @@ def shuffle(mesh, bvh, count, rng, number=0):
 @pytest.mark.heavy
 @pytest.mark.parametrize("name", MESHES)
 @pytest.mark.slow
-def test_the_index_finds_what_all_pairs_tell(name):
+def test_the_bvh_finds_what_all_pairs_find(name):
     mesh, exponent = unit_mesh(*MESHES[name]())
     bvh = build_bvh(mesh, exponent)
     rng = np.random.default_rng(0)
@@ -169,7 +169,7 @@ def test_boxes_that_grow_hold_what_is_below_and_what_was(name):
 
 @pytest.mark.heavy
 @pytest.mark.parametrize("name", MESHES)
-def test_of_faces_that_changed_in_a_round_those_are_found_that_all_pairs_tell(name):
+def test_among_faces_that_changed_in_a_round_the_bvh_finds_what_all_pairs_find(name):
     mesh, exponent = unit_mesh(*MESHES[name]())
     bvh = build_bvh(mesh, exponent)
     rng = np.random.default_rng(3)
@@ -188,7 +188,7 @@ def test_of_faces_that_changed_in_a_round_those_are_found_that_all_pairs_tell(na
 @pytest.mark.heavy
 @pytest.mark.parametrize("name", MESHES)
 @pytest.mark.slow
-def test_rivals_are_those_that_all_pairs_tell(name):
+def test_rivals_are_those_that_all_pairs_find(name):
     """Flips of a round: none has a face of another one's, but their new faces may cut."""
     mesh, exponent = unit_mesh(*MESHES[name]())
     bvh = build_bvh(mesh, exponent)

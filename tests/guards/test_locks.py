@@ -57,7 +57,7 @@ CUBE = *meshes.cube(push=0.0), CUBE_EDGES
 @pytest.mark.parametrize(
     ("part", "degrees"), [(CUBE, 90.0), (cylinder(12), 30.0), (cylinder(8), 45.0)]
 )
-def test_edges_at_the_limit_are_creases_wherever_the_part_stands(part, degrees, precision):
+def test_edges_at_the_limit_are_creases_wherever_the_part_lies(part, degrees, precision):
     vertices, faces, edges = part
     for seed in range(12):
         matrix, _ = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))

@@ -35,7 +35,7 @@ def _mesh(request):
     return build(*MESHES[request.param])
 
 
-def test_sorting_by_vertex_is_stable_and_tells_where_each_vertex_starts():
+def test_sorting_by_vertex_is_stable_and_returns_where_each_vertex_starts():
     vertex = np.random.default_rng(0).integers(0, 9, 60)
     order = np.random.default_rng(1).permutation(60)
     starts = np.full(11, 77)

@@ -108,7 +108,7 @@ def test_choices_are_those_that_pymeshlab_names():
 @recorded_here
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="needs child processes")
 @pytest.mark.slow
-def test_all_names_are_known_and_a_sample_does_what_is_said():
+def test_all_names_are_known_and_a_sample_does_what_its_entry_says():
     sample = sorted(NATIVES)[::7]
     command = [sys.executable, "-m", "tests.meshset.record_native_filters", "--check", *sample]
     root = Path(__file__).parents[2]
@@ -382,7 +382,7 @@ def test_a_filter_whose_plugin_is_not_there(monkeypatch):
     assert REMESH not in [k.name for k in everything()]
 
 
-def test_a_version_that_nobody_knows(monkeypatch):
+def test_an_unknown_version(monkeypatch):
     def unknown(_):
         raise catalogue.metadata.PackageNotFoundError
 

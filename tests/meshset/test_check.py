@@ -284,7 +284,7 @@ def test_the_corpus_is_one_of_different_faults():
     assert len({case.said for case in CORPUS}) == len(CORPUS) >= 25
 
 
-def test_all_faults_are_told_in_order():
+def test_all_faults_are_listed_in_order():
     steps = steps_of(
         step("qqqqq", share("x", 1)),
         step(REMESH, share("zzz", 1), param("FeatureDeg", "RichInt", value=1)),
@@ -331,7 +331,7 @@ def test_faults_of_the_form_hide_none_of_the_names_or_values():
     ]
 
 
-def test_what_follows_from_a_fault_is_not_told():
+def test_what_follows_from_a_fault_is_not_listed():
     """A parameter that can't be read is not missing, and what is not read may make a mesh."""
     cameras = "Import cameras for active rasters from file"
     assert said_of("<Filter name='Box/Cube'/>", step(TAUBIN), mesh_ids=()) == []

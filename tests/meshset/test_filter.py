@@ -24,7 +24,7 @@ def announced(monkeypatch):
     return calls
 
 
-def test_a_filter_that_compiles_says_so_unless_the_set_was_told_to_be_silent(announced):
+def test_a_filter_that_compiles_says_so_unless_the_set_is_silent(announced):
     ms = pymeshlab.MeshSet()
     ms.create_cube()
     ms.apply_filter(MEASURE)
@@ -36,7 +36,7 @@ def test_a_filter_that_compiles_says_so_unless_the_set_was_told_to_be_silent(ann
     assert announced == [(what, False), (what, False), (what, True)]
 
 
-def test_a_verbose_set_is_told_too(announced, capfd):
+def test_a_verbose_set_says_so_too(announced, capfd):
     ms = pymeshlab.MeshSet(verbose=True)
     ms.create_cube()
     ms.apply_filter(MEASURE)

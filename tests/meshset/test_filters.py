@@ -218,7 +218,7 @@ def test_coincident_vertices_keep_their_own_scalars():
     assert_scalar_is_willmore_energy(ms)
 
 
-def test_scalar_of_a_whole_mesh_that_stands_twice():
+def test_scalar_of_a_mesh_that_is_there_twice():
     vertices, faces = meshes.bumpy_sphere(500)
     other = optimize_flips(vertices, faces).faces
     ms = set_of(np.vstack([vertices, vertices]), np.vstack([faces, other + 500]))

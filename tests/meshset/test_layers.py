@@ -12,7 +12,7 @@ from tests.meshset.conftest import FLIP, SAMPLES, random_transform, set_of
 
 
 @pytest.mark.slow
-def test_sets_are_told_apart_by_identity():
+def test_sets_are_distinguished_by_identity():
     @dataclasses.dataclass
     class Job(pymeshlab.MeshSet):
         def __post_init__(self):

@@ -310,7 +310,7 @@ def three():
     return ms
 
 
-def test_the_status_tells_ids_that_lead_to_the_meshes(capfd):
+def test_the_status_prints_ids_that_lead_to_the_meshes(capfd):
     ms = three()
     held = ms.current_mesh()
     ms.apply_filter(FLIP)

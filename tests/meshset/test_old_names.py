@@ -39,7 +39,7 @@ def test_each_old_name_leads_to_a_filter_of_today():
 
 
 @recorded_here
-def test_no_name_stands_twice():
+def test_no_name_is_listed_twice():
     names = [entry["old"] for entry in TABLE["filters"]]
     assert len(names) == len(set(names))
     assert not set(names) & TABLE["gone"].keys()
@@ -48,7 +48,7 @@ def test_no_name_stands_twice():
 
 
 @recorded_here
-def test_old_names_stand_as_they_are_looked_up():
+def test_old_names_are_written_as_they_are_looked_up():
     for name in [e["old"] for e in TABLE["filters"] + TABLE["params"]] + list(TABLE["gone"]):
         assert old_names.plain(name) == name
 
@@ -87,7 +87,7 @@ def test_what_parameters_are_asked_for_is_there():
 
 
 @recorded_here
-def test_it_is_said_where_each_entry_was_found():
+def test_each_entry_has_its_source():
     for entry in TABLE["filters"] + TABLE["params"] + TABLE["choices"]:
         assert old_names.age(entry["from"]) <= old_names.age(entry["until"]), entry
         assert entry["source"], entry
@@ -309,7 +309,7 @@ def test_todays_choices_are_left_alone():
     assert warnings_of(step) == ()
 
 
-def test_names_that_meshlab_mixed_up_stand_for_what_was_done():
+def test_names_that_meshlab_mixed_up_mean_what_was_done():
     mixed = ("None (avg)", "By Angle", "By Area", "As defined by N. Max")
     step = Step("Compute Vertex Normals", (enum("weightMode", 1, *mixed),))
     (call,) = resolve([step], "here")
@@ -328,7 +328,7 @@ def test_choices_that_are_only_reworded_are_no_news():
     assert warnings_of(Step("Ambient Occlusion", (enum("occMode", 1, *choices),))) == ()
 
 
-def test_what_changes_the_result_is_told_apart_from_what_is_called_otherwise():
+def test_warnings_distinguish_another_result_from_another_name():
     step = Step(
         "Surface Reconstruction: Poisson",
         (
@@ -347,7 +347,7 @@ def test_a_script_of_today_has_no_warning():
     assert warnings_of(step, Step("Remeshing: Isotropic Explicit Remeshing")) == ()
 
 
-def test_defaults_that_have_changed_are_told_where_the_script_shows_its_age():
+def test_changed_defaults_are_reported_where_the_script_shows_its_age():
     hausdorff = Step("Hausdorff Distance", (Param("SampleFace", "RichBool", True),))
     told = warnings_of(hausdorff, Step("Box"))
     assert [(w.step, w.param) for w in told] == [(2, ""), (1, "SampleEdge")]

@@ -108,7 +108,7 @@ def test_defaults_and_given_values_together():
     ("value", "text"),
     [("midpoint", "midpoint"), (0.1, "0.1"), (np.float32(0.5), "0.5"), (1, "1.0"), ("", "")],
 )
-def test_a_text_may_stand_for_a_number(value, text):
+def test_a_number_may_be_given_as_text(value, text):
     parameter = Parameter("place", str, "midpoint", "Place", "Where.")
     assert parameter.read(value) == text
     assert parameter.default_for(None) == "midpoint"

@@ -263,7 +263,7 @@ if sys.stdout is None:
 
 
 @pytest.mark.parametrize("filter_", FILTERS, ids=NAMES)
-def test_docstrings_tell_every_parameter(filter_):
+def test_docstrings_describe_every_parameter(filter_):
     method = getattr(pymeshlab.MeshSet, filter_.name)
     assert method.__name__ == filter_.name
     assert filter_.meshlab_name in method.__doc__

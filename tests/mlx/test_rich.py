@@ -193,7 +193,7 @@ def test_there_are_values_of_every_type():
 
 @given(scripts.params())
 @pytest.mark.slow
-def test_the_attributes_stand_in_one_order_and_read_back(param):
+def test_the_attributes_have_one_order_and_read_back(param):
     written = rich.attributes(param)
     known = ["name", "type", *rich.rich_type(param.type).fields, *dict(param.details)]
     assert list(written) == known

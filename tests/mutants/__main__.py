@@ -73,7 +73,7 @@ def run(tests, jit_is_off, fault=None):
 
 
 def is_found(fault):
-    """Whether its tests find a fault; a line tells of it."""
+    """Whether its tests find a fault; a line is printed."""
     start = time.perf_counter()
     code, output = run(fault.tests.split(), is_in_kernel(fault), fault)
     verdict = {PASSED: "SURVIVED", FAILED: "red"}.get(code, f"ERROR {code}")

@@ -150,5 +150,5 @@ def test_the_torus_ends_equally_well_whatever_the_start(arguments, seeds, most):
         thorough.run(KERNELS["willmore"], preludes(*NAMES), mesh, rules, Reach())
         assert willmore.total(mesh) - 2.0 * np.pi * len(vertices) <= most
         found.append(reference.edge_set(faces_of(mesh)))
-    # All but a few edges agree; one flip that the fold guard forbids tells the ends apart.
+    # All but a few edges agree; one flip that the fold guard forbids is the difference.
     assert all(len(edges ^ found[0]) <= 4 for edges in found)

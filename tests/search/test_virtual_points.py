@@ -111,8 +111,8 @@ print(len(greedy_virtual_at.signatures), sum(hits.values()), sum(misses.values()
 def test_one_compilation_serves_all_places_and_later_processes():
     """In the cache of all tests it may be there already; a second process finds it."""
     command = [sys.executable, "-W", "error", "-c", SCRIPT]
-    told = [
+    printed = [
         subprocess.run(command, capture_output=True, text=True, check=True).stdout for _ in range(2)
     ]
-    assert told[0] in ("1 0 1\n", "1 1 0\n")
-    assert told[1] == "1 1 0\n"
+    assert printed[0] in ("1 0 1\n", "1 1 0\n")
+    assert printed[1] == "1 1 0\n"

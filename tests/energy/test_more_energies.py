@@ -307,7 +307,7 @@ def test_delaunay_reduction_has_the_sign_of_the_criterion():
     assert 20 < sum(signs) < len(signs) - 20
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(2))
 def test_descent_ends_at_the_delaunay_triangulation_of_the_plane(seed):
     vertices, faces = meshes.patch(40, seed=seed, height=0.0)
     mesh = build(vertices, faces)
@@ -388,7 +388,7 @@ def test_degenerate_faces_cost_what_the_total_says(name, arrays):
     module, _ = ENERGIES[name]
     mesh, rng = build(*arrays), np.random.default_rng(0)
     checked = 0
-    for h in rng.integers(0, len(mesh.origin), 1500):
+    for h in rng.integers(0, len(mesh.origin), 300):
         gain = module.cost_reduction(mesh, h) if can_flip(mesh, h) else -np.inf
         if gain > -np.inf:
             before = module.total(mesh)

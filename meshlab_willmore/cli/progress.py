@@ -144,7 +144,7 @@ def with_details(status: Status) -> Iterator[None]:
 
     quick_start.import_numba()
     from ..mesh import compiling
-    from ..mesh.status import heard_by
+    from ..mesh.notify import listening
 
     has_compiled = False
 
@@ -153,7 +153,7 @@ def with_details(status: Status) -> Iterator[None]:
         has_compiled = True
         status.detail(f"compiling {name}" if name else "")
 
-    with heard_by(status.detail), compiling.followed(follow):
+    with listening(status.detail), compiling.followed(follow):
         yield
     _note_lost_kernels(has_compiled)
 

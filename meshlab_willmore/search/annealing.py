@@ -35,7 +35,7 @@ from ..guards.bvh import Bvh, inactive_bvh, refit, refitted
 from ..guards.intersections import would_intersect
 from ..mesh.halfedge import NONE, Mesh, flip, is_free, makes_new_edge
 from ..mesh.jit import generic, inner
-from ..mesh.status import report
+from ..mesh.notify import report
 from .rules import CONVERGED, STOPPED, WORKING, Rules
 from .states import State, assign, better, copy_of, descend, finish, start_from
 

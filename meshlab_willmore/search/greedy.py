@@ -39,7 +39,7 @@ from ..energy import willmore
 from ..guards.bvh import Bvh, inactive_bvh, refit
 from ..mesh.halfedge import NONE, Mesh, flip, makes_new_edge
 from ..mesh.jit import generic, inner
-from ..mesh.status import report
+from ..mesh.notify import report
 from . import rescoring
 from .heap import NEVER, Queue, empty_queue, first, update
 from .pairs import Pairs, insert, no_pairs, reserve

@@ -35,7 +35,7 @@ from ..guards.bvh import inactive_bvh, specialized
 from ..guards.intersections import ANY_ROUND, blocking_face
 from ..mesh.halfedge import apex, flip, makes_new_edge
 from ..mesh.jit import at, inner, jit
-from ..mesh.status import report
+from ..mesh.notify import report
 from ..mesh.workers import crew
 from . import lists, peaks
 from .board import board_of, forbid

@@ -18,7 +18,7 @@ import numpy as np
 
 from ..mesh.build import build, faces_of
 from ..mesh.halfedge import NONE, Mesh
-from ..mesh.status import stage
+from ..mesh.notify import stage
 from ..mesh.workers import crew
 from .rules import CONVERGED, Progress
 

@@ -20,7 +20,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from ..guards.bvh import inactive_bvh
-from ..mesh.status import stage
+from ..mesh.notify import stage
 from . import greedy, variable_depth
 from .rules import Rules
 from .states import better, extend, finish, start_from

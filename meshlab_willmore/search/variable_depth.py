@@ -45,7 +45,7 @@ from ..energy import delaunay
 from ..guards.bvh import inactive_bvh, refit
 from ..mesh.halfedge import apex, flip, is_free, makes_new_edge
 from ..mesh.jit import generic, inner, jit
-from ..mesh.status import report
+from ..mesh.notify import report
 from . import greedy, regions
 from .chains import Task, find_chain, no_chain, ring_around
 from .greedy import SLICE

@@ -5,7 +5,7 @@ import threading
 import pytest
 
 from meshlab_willmore import optimize_flips
-from meshlab_willmore.mesh.status import heard_by, report, stage
+from meshlab_willmore.mesh.notify import listening, report, stage
 from meshlab_willmore.options import SEARCH
 from tests import meshes
 
@@ -13,7 +13,7 @@ from tests import meshes
 def test_stages_stand_before_what_is_reported():
     heard = []
     report("nobody hears")
-    with heard_by(heard.append):
+    with listening(heard.append):
         with stage("start 2 of 3"):
             report("5 flips")
             with stage("part 1 of 2"):
@@ -36,7 +36,7 @@ def test_other_threads_are_not_heard():
         with stage("elsewhere"):
             report("more")
 
-    with heard_by(heard.append):
+    with listening(heard.append):
         thread = threading.Thread(target=work)
         thread.start()
         thread.join()
@@ -57,7 +57,7 @@ def test_other_threads_are_not_heard():
 )
 def test_every_search_tells_how_far_it_is(search, words):
     heard = []
-    with heard_by(heard.append):
+    with listening(heard.append):
         optimize_flips(*meshes.bumpy_sphere(60), energy="willmore", search=search, sweeps=3)
     assert any(words in text for text in heard)
     assert search in SEARCH.choices

@@ -1,6 +1,7 @@
-"""What a search is doing and how far it is, for whoever shows it while it lasts.
+"""Reports of what a search is doing and how far it is, for a listener that shows them.
 
-Only the thread that listens is heard: of a search that works in several threads, one tells enough.
+Only reports of the listener's own thread arrive: of a search that works in several threads, those
+of one are enough.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from typing import NamedTuple
 
 class _Listener(NamedTuple):
     thread: int
-    hear: Callable[[str], object]
+    call: Callable[[str], object]
 
 
 _listeners: list[_Listener] = []
@@ -21,9 +22,9 @@ _stages: list[str] = []
 
 
 @contextmanager
-def heard_by(hear: Callable[[str], object]) -> Iterator[None]:
-    """Call `hear` with what is reported inside, a few words at a time."""
-    _listeners.append(_Listener(threading.get_ident(), hear))
+def listening(call: Callable[[str], object]) -> Iterator[None]:
+    """Call `call` with the text of each report inside."""
+    _listeners.append(_Listener(threading.get_ident(), call))
     try:
         yield
     finally:
@@ -32,7 +33,7 @@ def heard_by(hear: Callable[[str], object]) -> Iterator[None]:
 
 @contextmanager
 def stage(name: str) -> Iterator[None]:
-    """What is reported inside belongs to a stage, which is named before it."""
+    """Put the name of a stage before the reports inside."""
     if not _is_heard():
         yield
         return
@@ -45,9 +46,9 @@ def stage(name: str) -> Iterator[None]:
 
 
 def report(text: str) -> None:
-    """Tell how far the work is."""
+    """Report how far the work is."""
     if _is_heard():
-        _listeners[-1].hear(", ".join(filter(None, (*_stages, text))))
+        _listeners[-1].call(", ".join(filter(None, (*_stages, text))))
 
 
 def _is_heard() -> bool:

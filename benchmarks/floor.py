@@ -26,8 +26,8 @@ from meshlab_willmore.guards.bvh import inactive_bvh
 from meshlab_willmore.mesh.build import build
 from meshlab_willmore.mesh.halfedge import is_free
 from meshlab_willmore.mesh.jit import jit
+from meshlab_willmore.mesh.parallel import thread_pool
 from meshlab_willmore.mesh.validate import check_mesh, to_unit_scale
-from meshlab_willmore.mesh.workers import crew
 from meshlab_willmore.search import entries
 from meshlab_willmore.search.board import board_of
 from meshlab_willmore.search.lanes import (
@@ -115,7 +115,7 @@ def contenders(board, ready, edges):
 
 def shared(kernel, task, count, threads):
     """Seconds of the work on so many threads, which are there already."""
-    with crew(threads) as share:
+    with thread_pool(threads) as share:
         return machine.seconds_of(functools.partial(share, kernel, task, count))
 
 

@@ -19,8 +19,8 @@ from .guards.intersections import mark_intersecting
 from .mesh.build import build, interior_vertices
 from .mesh.halfedge import Mesh
 from .mesh.jit import at, jit
+from .mesh.parallel import CHUNK, thread_pool
 from .mesh.validate import check_mesh, in_input_units, to_unit_scale
-from .mesh.workers import PIECE, crew
 
 FULL_TURN = 2.0 * math.pi
 # Faces between two looks at the keyboard.
@@ -217,10 +217,10 @@ def self_intersections(vertices, faces):
 
 def willmore_energy_of(mesh):
     """Return the Willmore energy of a half-edge mesh, as `willmore_energy` does."""
-    pieces = -(-len(mesh.origin) // PIECE)
+    pieces = -(-len(mesh.origin) // CHUNK)
     task = _Parts(mesh, interior_vertices(mesh), np.zeros(pieces), np.zeros(pieces))
-    with crew() as share:
-        share(_add_angles, task, len(mesh.origin), PIECE)
+    with thread_pool() as parallel_for:
+        parallel_for(_add_angles, task, len(mesh.origin), CHUNK)
     half_turns = task.half_turns.sum() - 2.0 * np.count_nonzero(task.interior)
     energy = float(math.pi * half_turns + task.rest.sum())
     # Undefined angles leave out single vertices.
@@ -268,8 +268,8 @@ def _add_angles(task, start, stop):
             half_turns += angles.half_turns
             rest += math.atan2(angles.s, angles.r)
             angles, products = NO_ANGLES, 0
-    task.half_turns[start // PIECE] = half_turns + angles.half_turns
-    task.rest[start // PIECE] = rest + math.atan2(angles.s, angles.r)
+    task.half_turns[start // CHUNK] = half_turns + angles.half_turns
+    task.rest[start // CHUNK] = rest + math.atan2(angles.s, angles.r)
 
 
 class _Angles(NamedTuple):
@@ -282,8 +282,8 @@ class _Angles(NamedTuple):
 def _lower_angles(mesh):
     """Return the intersection angle at each lower twin (3 m,); what else is there means nothing."""
     task = _Angles(mesh, np.empty(len(mesh.origin)))
-    with crew() as share:
-        share(_find_angles, task, len(mesh.origin))
+    with thread_pool() as parallel_for:
+        parallel_for(_find_angles, task, len(mesh.origin))
     return task.beta
 
 

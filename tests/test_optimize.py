@@ -14,7 +14,7 @@ from meshlab_willmore.energy.kinds import KINDS
 from meshlab_willmore.measure import measures, triangle_shapes, willmore_energy
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import can_flip
-from meshlab_willmore.mesh.workers import PIECE
+from meshlab_willmore.mesh.parallel import CHUNK
 from meshlab_willmore.optimize import FlipResult, optimize_flips
 from meshlab_willmore.options import ENERGY, SEARCH
 from meshlab_willmore.search import peaks
@@ -728,7 +728,7 @@ def test_an_interrupt_in_the_first_round_is_served_at_once_and_changes_nothing(m
 
     def interrupted(look, start, stop):
         # On one thread or another, but once in a round.
-        if start == 3 * PIECE and not started:
+        if start == 3 * CHUNK and not started:
             started.append(time.perf_counter())
             os.kill(os.getpid(), signal.SIGINT)
         find_peaks(look, start, stop)

@@ -292,7 +292,7 @@ import numba
 def double(n):
     return 2 * n
 double(1)
-from meshlab_willmore.mesh.workers import thread_count
+from meshlab_willmore.mesh.parallel import thread_count
 answer = {"threads": thread_count(), "cores": numba.config.NUMBA_DEFAULT_NUM_THREADS}
 """
 _CACHE = """

@@ -29,7 +29,7 @@ def command() -> None:
     from .. import quick_start
 
     quick_start.import_numba()
-    from ..mesh.workers import core_count
+    from ..mesh.parallel import core_count
     from ..warmup import steps, warm_up
 
     def show(line: str) -> None:

@@ -16,7 +16,7 @@ from numba.extending import overload
 
 from ..mesh.halfedge import NONE, Mesh, diamond
 from ..mesh.jit import at, inner, jit
-from ..mesh.workers import crew
+from ..mesh.parallel import thread_pool
 
 # Faces in a leaf: half as many up to as many. More cost more tests, fewer cost memory.
 LEAF_FACES = 4
@@ -118,8 +118,8 @@ def build_bvh(mesh, exponent=0):
         np.zeros(faces, np.int32),
         np.zeros(nodes, np.int32),
     )
-    with crew() as share:
-        share(_fill_leaves, _Refit(mesh, bvh), leaves)
+    with thread_pool() as parallel_for:
+        parallel_for(_fill_leaves, _Refit(mesh, bvh), leaves)
     _refit_inner_nodes(bvh)
     return bvh
 
@@ -149,8 +149,8 @@ def _leaf_order(mesh, leaves):
     blocks = min(leaves, BLOCKS)
     state = _Build(order, _centres(mesh), leaves, leaves // blocks)
     _split(state, 0, leaves, leaves // blocks)
-    with crew() as share:
-        share(_split_blocks, state, blocks, piece=1)
+    with thread_pool() as parallel_for:
+        parallel_for(_split_blocks, state, blocks, chunk=1)
     return order
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from .halfedge import NONE, Mesh, following, next_in_fan
 from .jit import at, inner, jit
-from .workers import crew
+from .parallel import thread_pool
 
 # Half-edges of one vertex that are sorted by insertion, which takes quadratic time.
 MANY_EDGES = 64
@@ -205,8 +205,8 @@ def in_old_slots(mesh, order):
         `Mesh.corner`, but in the numbers of the input.
     """
     faces, corners = np.empty((2, len(order), 3), np.int32)
-    with crew() as share:
-        share(_put_back, _Slots(mesh, order, faces, corners), len(order))
+    with thread_pool() as parallel_for:
+        parallel_for(_put_back, _Slots(mesh, order, faces, corners), len(order))
     return faces, corners
 
 
@@ -257,9 +257,9 @@ def build(vertices, faces):
     Mesh
     """
     count = len(vertices)
-    with crew() as share:
+    with thread_pool() as parallel_for:
         stars = _stars(faces, count)
-        share(_pair, stars, count)
+        parallel_for(_pair, stars, count)
         mesh = Mesh(
             vertices,
             stars.origin,
@@ -271,7 +271,7 @@ def build(vertices, faces):
         )
         fans = _Fans(mesh, np.zeros(count, np.int32), np.full(count, NONE, np.int32))
         _count_corners(fans)
-        share(_find_several_fans, fans, count)
+        parallel_for(_find_several_fans, fans, count)
     return mesh
 
 

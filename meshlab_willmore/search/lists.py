@@ -7,7 +7,7 @@ import numpy as np
 
 from ..mesh.halfedge import NONE, previous
 from ..mesh.jit import at, jit
-from ..mesh.workers import PIECE
+from ..mesh.parallel import CHUNK
 from . import board as boards
 from .board import Pad
 from .heap import NEVER
@@ -16,7 +16,7 @@ from .touched import visit_around, visit_fans, visit_freed
 from .waiting import leave
 
 # Items of work that is done in order between two looks at the keyboard.
-SLICE = 16 * PIECE
+SLICE = 16 * CHUNK
 
 
 @jit

@@ -36,7 +36,7 @@ from ..guards.intersections import ANY_ROUND, blocking_face
 from ..mesh.halfedge import apex, flip, makes_new_edge
 from ..mesh.jit import at, inner, jit
 from ..mesh.notify import report
-from ..mesh.workers import crew
+from ..mesh.parallel import thread_pool
 from . import lists, peaks
 from .board import board_of, forbid
 from .pairs import insert, reserve
@@ -209,7 +209,7 @@ def run(kernel, mesh, rules, space=None, threads=None):
     """
     space = specialized(inactive_bvh() if space is None else space)
     progress = Progress(len(mesh.origin), 0, 0.0, WORKING)
-    with crew(threads) as share:
+    with thread_pool(threads) as share:
         for _ in range(MOST_PASSES):
             flips, board = progress.flips, board_of(mesh, rules, space)
             progress = _make_rounds(kernel, board, progress, share)

@@ -159,7 +159,7 @@ def in_order(look, number, flips, share):
     flips : int
         How many there were before.
     share : callable
-        From `meshlab_willmore.mesh.workers.crew`.
+        From `meshlab_willmore.mesh.parallel.thread_pool`.
 
     Returns
     -------

@@ -19,7 +19,7 @@ import numpy as np
 from ..mesh.build import build, faces_of
 from ..mesh.halfedge import NONE, Mesh
 from ..mesh.notify import stage
-from ..mesh.workers import crew
+from ..mesh.parallel import thread_pool
 from .rules import CONVERGED, Progress
 
 # Parts have at least so many faces. Smaller ones would be frozen for a good deal.
@@ -71,7 +71,7 @@ def run(search, mesh, threads=None):
         there is something in the list, it should end soon.
     mesh : Mesh
     threads : int, optional
-        As for `meshlab_willmore.mesh.workers.crew`. The result does not depend on it.
+        As for `meshlab_willmore.mesh.parallel.thread_pool`. The result does not depend on it.
 
     Returns
     -------
@@ -84,9 +84,9 @@ def run(search, mesh, threads=None):
     is_shared = _shared_vertices(mesh, parts)
     regions = [_region(mesh, part, is_shared) for part in parts]
     work = _Work(search, regions, [None] * len(parts), [])
-    with crew(threads) as share:
+    with thread_pool(threads) as share:
         try:
-            share(_search, work, len(parts), piece=1)
+            share(_search, work, len(parts), chunk=1)
         except BaseException:
             work.halted.append(True)
             raise

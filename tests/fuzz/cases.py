@@ -7,7 +7,7 @@ from unittest import mock
 import numpy as np
 
 from meshlab_willmore.measure import self_intersections
-from meshlab_willmore.mesh import workers
+from meshlab_willmore.mesh import parallel
 from meshlab_willmore.optimize import optimize_flips
 from meshlab_willmore.search import lists, parallel_greedy, regions
 
@@ -70,8 +70,8 @@ class Case:
         """Run on so many threads; on several with the work in small pieces."""
         with contextlib.ExitStack() as stack:
             for module, name, value in (
-                (workers, "thread_count", lambda: threads),
-                (workers, "PIECE", 2048 if threads == 1 else 3),
+                (parallel, "thread_count", lambda: threads),
+                (parallel, "CHUNK", 2048 if threads == 1 else 3),
                 (lists, "SLICE", 2048 if threads == 1 else 5),
                 (parallel_greedy, "WATCHED_PER_CHANGE", 13 if threads == 1 else 0),
                 (regions, "LEAST_FACES", self.parts),

@@ -149,7 +149,7 @@ def test_the_sources_take_no_constants_from_other_files():
         if not {module.with_suffix(".py"), module / "__init__.py"} & sources()
     }
     # How many items a thread gets at a time; no kernel sees it.
-    assert {name for name, _ in others if name.isupper()} == {"PIECE"}
+    assert {name for name, _ in others if name.isupper()} == {"CHUNK"}
 
 
 def test_without_a_home_nothing_is_kept_in_the_working_folder(monkeypatch, tmp_path):

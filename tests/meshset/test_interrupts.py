@@ -89,7 +89,7 @@ INTERRUPTED = """
 import os, signal, sys, threading, time
 import numpy as np, pymeshlab, meshlab_willmore
 sys.path.insert(0, sys.argv[1])
-from meshlab_willmore.mesh.workers import PIECE
+from meshlab_willmore.mesh.parallel import CHUNK
 from meshlab_willmore.search import peaks
 from tests import meshes
 # Of the annealing, far more than anyone would wait for.
@@ -110,7 +110,7 @@ else:
     # In the middle of the first round, on one thread or another.
     find_peaks = peaks.find_peaks
     def interrupted(look, start, stop):
-        if start == 3 * PIECE and not sent:
+        if start == 3 * CHUNK and not sent:
             interrupt()
         find_peaks(look, start, stop)
     peaks.find_peaks = interrupted

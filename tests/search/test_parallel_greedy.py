@@ -1,9 +1,7 @@
 """The greedy search in rounds against one that scans all edges, and what makes rounds sound."""
 
 import math
-import threading
 
-import numba
 import numpy as np
 import pytest
 
@@ -12,7 +10,7 @@ from meshlab_willmore.energy import willmore
 from meshlab_willmore.energy.kinds import KINDS
 from meshlab_willmore.guards.bvh import build_bvh, expand, inactive_bvh
 from meshlab_willmore.measure import self_intersections
-from meshlab_willmore.mesh import workers
+from meshlab_willmore.mesh import parallel
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import apex, flip, following, is_free, makes_new_edge, previous
 from meshlab_willmore.optimize import optimize_flips
@@ -149,8 +147,8 @@ def peaks_of(board, edges, number=1):
     edges = np.array(edges, np.int32)
     look = Look(board, edges, np.empty(len(edges), np.int8))
     peaks.find_peaks(look, 0, len(edges))
-    with workers.crew(1) as share:
-        return look.verdict, *peaks.in_order(look, number, 0, share)
+    with parallel.thread_pool(1) as parallel_for:
+        return look.verdict, *peaks.in_order(look, number, 0, parallel_for)
 
 
 def flip_all(board, edges):
@@ -216,8 +214,8 @@ def test_of_two_flips_to_the_same_edge_the_smaller_waits_until_it_is_gone(larger
     for _ in range(3):
         flip(mesh, one)
     board.done[0] = one
-    with workers.crew(1) as share:
-        size = lists.touch_all(board, 1, share)
+    with parallel.thread_pool(1) as parallel_for:
+        size = lists.touch_all(board, 1, parallel_for)
     assert other in board.touched[:size]
 
 
@@ -237,9 +235,9 @@ def test_edges_of_equal_gain_do_not_wait_for_the_first_of_all():
 @pytest.mark.parametrize("name", ["closed", "locked", "shuffled"])
 def test_the_number_of_threads_changes_nothing(energy, name, monkeypatch):
     results, gains = [], []
-    for threads, piece in ((2, 2048), (1, 7), (4, 7), (3, 1), (6, 16)):
-        monkeypatch.setattr(workers, "PIECE", piece)
-        monkeypatch.setattr(lists, "SLICE", 3 * piece)
+    for threads, chunk in ((2, 2048), (1, 7), (4, 7), (3, 1), (6, 16)):
+        monkeypatch.setattr(parallel, "CHUNK", chunk)
+        monkeypatch.setattr(lists, "SLICE", 3 * chunk)
         # To look at all candidates, or at those around changes only, must be the same.
         monkeypatch.setattr(parallel_greedy, "WATCHED_PER_CHANGE", 10 * (threads % 2))
         mesh = ALL_MESHES[name]()
@@ -330,8 +328,8 @@ def test_two_flips_of_a_round_do_not_cut_each_other(gap):
         # It waits until that face changes again.
         flip(mesh, two[1])
         board.done[0] = two[1]
-        with workers.crew(1) as share:
-            size = lists.touch_all(board, 1, share)
+        with parallel.thread_pool(1) as parallel_for:
+            size = lists.touch_all(board, 1, parallel_for)
         assert two[0] in board.touched[:size]
     assert not self_intersections(mesh.vertices, faces_of(mesh)).any()
 
@@ -340,7 +338,7 @@ def test_two_flips_of_a_round_do_not_cut_each_other(gap):
 @pytest.mark.parametrize("seed", range(4))
 def test_with_the_guard_too_the_number_of_threads_changes_nothing(seed, monkeypatch):
     vertices, faces = meshes.crumpled(11, seed, noise=1.5)
-    monkeypatch.setattr(workers, "PIECE", 5)
+    monkeypatch.setattr(parallel, "CHUNK", 5)
     known, results = set(map(frozenset, faces.tolist())), []
     for threads in (1, 3):
         mesh = build(vertices, faces)
@@ -408,42 +406,3 @@ def test_a_new_board_forgets_the_rounds_of_a_run_before():
     board_of(mesh, rules_for("willmore"), space)
     assert not space.changed.any()
     assert not space.changed_below.any()
-
-
-# --- threads -------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("threads", [1, 2, 4])
-@pytest.mark.parametrize("count", [0, 1, workers.PIECE, workers.PIECE + 1, 10 * workers.PIECE + 3])
-def test_all_work_is_done_once(threads, count):
-    done = np.zeros(count, int)
-
-    def kernel(task, start, stop):
-        # There need not be room for the results of none.
-        assert start < stop
-        done[start:stop] += task
-
-    with workers.crew(threads) as share:
-        share(kernel, 1, count)
-        share(kernel, 1, count)
-    assert (done == 2).all()
-
-
-@pytest.mark.parametrize("threads", [1, 3])
-def test_an_error_in_a_piece_reaches_the_caller_and_no_thread_stays(threads):
-    def kernel(task, start, _):
-        if start >= 2 * workers.PIECE:
-            raise KeyboardInterrupt
-
-    before = threading.active_count()
-    with pytest.raises(KeyboardInterrupt), workers.crew(threads) as share:
-        share(kernel, None, 40 * workers.PIECE)
-    assert threading.active_count() == before
-
-
-def test_the_number_of_threads_is_numbas(monkeypatch):
-    monkeypatch.setattr(numba.config, "DISABLE_JIT", 0)
-    monkeypatch.setattr(numba.config, "NUMBA_NUM_THREADS", 7)
-    assert workers.thread_count() == 7
-    monkeypatch.setattr(numba.config, "DISABLE_JIT", 1)
-    assert workers.thread_count() == 1

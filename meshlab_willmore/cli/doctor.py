@@ -297,11 +297,11 @@ answer = {"threads": thread_count(), "cores": numba.config.NUMBA_DEFAULT_NUM_THR
 """
 _CACHE = """
 from meshlab_willmore import warmup
-from meshlab_willmore.mesh import compiling, jit
+from meshlab_willmore.mesh import jit
 folder = jit.cache_folder()
 answer = {"folder": folder, "steps": len(warmup.steps()), "missing": None}
 answer["damaged"] = jit.damaged_entries()
-if folder and compiling.CAN_TELL:
+if folder:
     answer["missing"] = len(warmup.missing())
 """
 

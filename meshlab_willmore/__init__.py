@@ -5,13 +5,11 @@ Importing this package adds its filters to `pymeshlab.MeshSet`.
 
 from __future__ import annotations
 
+import functools
 import importlib
-import sys
 import warnings
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from . import machine, quick_start
 from ._version import __version__
 
 if TYPE_CHECKING:
@@ -60,37 +58,33 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    _warn_of_missing_library()
     home = _HOMES[name]
     if not home:
         return importlib.import_module(f".{name}", __name__)
     return getattr(importlib.import_module(f".{home}", __name__), name)
 
 
+@functools.cache
+def _warn_of_missing_library() -> None:
+    # Not on import: the command line, which begins with it, reports it as an error.
+    if _missing:
+        warnings.warn(f"{_missing}. Until then only the functions on arrays work.", stacklevel=3)
+
+
 def __dir__() -> list[str]:
     return sorted([*globals(), *__all__])
 
 
-def _is_command_line() -> bool:
-    # As `python -m` it begins with this import.
-    return Path(sys.argv[0]).stem in ("meshlab-willmore", "-m")
-
-
-def _register_where_possible() -> None:
-    """Register the filters, or warn that PyMeshLab's system libraries are missing."""
+def _register() -> str:
+    """Register the filters; return why that is impossible where a system library is missing."""
     try:
         importlib.import_module(".meshset.register", __name__).register()
     except ImportError as error:
         if error.__cause__ is None:
             raise
-        # The command line says it in its own way.
-        if not _is_command_line():
-            warnings.warn(f"{error}. Until then only the functions on arrays work.", stacklevel=3)
+        return str(error)
+    return ""
 
 
-if _is_command_line():
-    # Before PyMeshLab is imported, which then settles how it reads names of files.
-    machine.allow_all_names()
-_register_where_possible()
-# Most of what the first filter would wait for. Many commands do without.
-if not _is_command_line():
-    quick_start.import_numba()
+_missing = _register()

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from .. import quick_start
+from .. import numba_settings
 from ..options import ALLOWLOSS, ENERGY, SEARCH, SELECTION
 from . import compare_row, progress
 from .arguments import json_option
@@ -153,7 +153,7 @@ def command(
         check_reference(reference)
     rows = _rows(given, peers)
     # With wrong variables each row would fail, without a clear reason.
-    quick_start.import_numba()
+    numba_settings.import_numba()
     comparison = Comparison(str(path), reference, timeout)
     outcomes = _outcomes(comparison, rows)
     if as_json:

@@ -23,6 +23,7 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, NamedTuple
 
 from .. import machine
+from ..temporary_files import temporary_folder
 from . import loading
 from .errors import WrongUse, reason
 from .paths import check_input
@@ -91,7 +92,7 @@ def run(comparison: Comparison, row: Row, notify: Callable[[str], None]) -> Outc
 def _subprocess() -> Iterator[subprocess.Popen[str]]:
     """A process with a folder for temporary files; both are removed in the end."""
     program = _PROGRAM.format(path=sys.path, module=__name__)
-    with machine.temporary_folder() as place:
+    with temporary_folder() as place:
         folder = str(place)
         process = subprocess.Popen(
             [sys.executable, "-c", program],

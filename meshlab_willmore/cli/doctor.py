@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 
 import click
 
-from .. import machine
+from .. import machine, numba_settings, temporary_files
 from .._version import __version__
 from . import progress
 from .arguments import json_option
@@ -195,7 +195,7 @@ def cache() -> Finding:
     name = "Numba's cache"
     if _compiler_is_off():
         return Finding(name, True, "not needed while the compiler is off")
-    problem = machine.cache_problem()
+    problem = numba_settings.cache_problem()
     if problem is not None:
         return Finding(name, False, *problem)
     answer = ask(_CACHE)
@@ -238,12 +238,12 @@ def _warmth(missing: int | None, steps: int, **_: object) -> str:
 def temporary() -> Finding:
     """Check the folder for temporary files, through which meshes pass."""
     name = "temporary files"
-    problem = machine.temporary_problem(ROOM_WANTED)
+    problem = temporary_files.temporary_problem(ROOM_WANTED)
     if problem is not None:
         return Finding(name, False, *problem)
     folder = tempfile.gettempdir()
     free = shutil.disk_usage(folder).free
-    return Finding(name, True, f"{folder}, {free // machine.MIB} MiB free")
+    return Finding(name, True, f"{folder}, {free // temporary_files.MIB} MiB free")
 
 
 CHECKS = (packages, settings, pymeshlab, filters, compiler, cache, temporary)
@@ -281,8 +281,8 @@ answer = {
 }
 """
 _SETTINGS = """
-from meshlab_willmore import quick_start
-quick_start.import_numba()
+from meshlab_willmore import numba_settings
+numba_settings.import_numba()
 answer = {"ok": True}
 """
 _COMPILER = """

@@ -21,7 +21,7 @@ from typing import Any, TextIO
 
 import click
 
-from .. import machine
+from .. import machine, numba_settings
 from .text import beginning_of, end_of, printable, terminal_width, width
 
 SECONDS_ON_A_TERMINAL = 1.0
@@ -140,9 +140,6 @@ def shown(label: str, total: int = 0) -> Iterator[Status]:
 @contextmanager
 def with_details(status: Status) -> Iterator[None]:
     """Show what searches and the compiler report inside as details of what is being done."""
-    from .. import quick_start
-
-    quick_start.import_numba()
     from ..mesh import compiling
     from ..mesh.notify import listening
 
@@ -163,7 +160,7 @@ def _note_lost_kernels(has_compiled: bool) -> None:
     from ..mesh.jit import cache_folder
     from ..mesh.kernel_cache import write_errors
 
-    if machine.cache_problem() is not None:
+    if numba_settings.cache_problem() is not None:
         # That was printed when Numba was imported.
         return
     if write_errors:
@@ -186,7 +183,7 @@ def cache_cure() -> str:
         home = Path()
     is_usable = home.is_absolute() and not machine.unwritable(home)
     folder = str(home / ".cache" / "numba") if is_usable else "/a/folder/of/yours"
-    return f"export {machine.CACHE_DIR}={shlex.quote(folder)}"
+    return f"export {numba_settings.CACHE_DIR}={shlex.quote(folder)}"
 
 
 class _Screen:

@@ -26,9 +26,6 @@ def command() -> None:
     set for later runs too. This takes some minutes the first time, and seconds when everything is
     compiled. 'meshlab-willmore doctor' shows whether it is.
     """
-    from .. import quick_start
-
-    quick_start.import_numba()
     from ..mesh.parallel import core_count
     from ..warmup import steps, warm_up
 

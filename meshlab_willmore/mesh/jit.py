@@ -17,17 +17,11 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from numba import njit
+from numba.core.registry import CPUDispatcher
 
-from .. import quick_start
-
-quick_start.import_numba()
-from numba import njit  # noqa: E402
-from numba.core.registry import CPUDispatcher  # noqa: E402
-
-from . import compiling  # noqa: E402, F401 (it tells of what is compiled)
-from .kernel_cache import KernelCache, damaged_files  # noqa: E402
-
-quick_start.load_numba()
+from . import compiling  # noqa: F401 - it announces what is compiled
+from .kernel_cache import KernelCache, damaged_files
 
 # Division by zero gives inf or nan, as in NumPy: kernels test for finite results where it matters.
 # Kernels touch no Python object, so other threads may run meanwhile. No C code calls them.

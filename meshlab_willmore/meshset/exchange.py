@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 import pymeshlab
 
-from ..machine import temporary_folder
+from ..temporary_files import temporary_folder
 from . import ids, layers, native, ply
 from .edge_flags import carry_side_bits
 from .snapshot import (

@@ -25,7 +25,7 @@ import numpy as np
 import pymeshlab
 from pymeshlab import MeshSet
 
-from ..machine import temporary_folder
+from ..temporary_files import temporary_folder
 
 # PyMeshLab's own, not what `register` (of a module that was imported before) replaced them with.
 add = inspect.unwrap(MeshSet.add_mesh)

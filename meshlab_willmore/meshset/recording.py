@@ -14,10 +14,10 @@ from typing import Any
 
 from pymeshlab import MeshSet
 
-from ..machine import temporary_folder
 from ..mlx.read import read, read_bytes
 from ..mlx.steps import Param, Percentage, ScriptError, Step
 from ..mlx.write import write
+from ..temporary_files import temporary_folder
 from . import catalogue, native
 from .check import faults_of, is_todays, modernised, with_choices
 from .filter import Filter

@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 import pymeshlab
 
-from ..machine import temporary_folder
+from ..temporary_files import temporary_folder
 from . import layers, native, ply
 from .filter_info import python_name
 

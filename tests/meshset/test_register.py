@@ -450,8 +450,7 @@ IMPORTED = """
 import sys, warnings
 warnings.simplefilter("error")
 import meshlab_willmore
-assert "numba" in sys.modules, "the first filter would wait for it"
-assert "meshlab_willmore.mesh.jit" not in sys.modules, "kernels take their time to load"
+assert "numba" not in sys.modules, "it takes its time to load"
 import pymeshlab
 assert hasattr(pymeshlab.MeshSet, "meshing_edge_flip_by_willmore_optimization")
 assert callable(meshlab_willmore.optimize_flips)

@@ -10,11 +10,14 @@ MOST_VERTICES = 2**31 - 1
 # Least coordinate at unit scale: the difference of two is above 2**-126, or none, and the squares
 # of products of four such lengths, which angles take, are in the range of floats.
 LEAST = 2.0**-74
-REPAIR_NULL_FACES = "meshing_remove_null_faces"
-REPAIR_NOT_FINITE = (
-    "the PyMeshLab filters compute_selection_by_condition_per_vertex"
-    "(condselect='x-x!=0 || y-y!=0 || z-z!=0') and meshing_remove_selected_vertices()"
-)
+
+
+class NotFiniteError(ValueError):
+    """A vertex has a coordinate that is not finite."""
+
+
+class RepeatedVertexError(ValueError):
+    """A face has a vertex twice."""
 
 
 def check_mesh(vertices, faces):
@@ -56,10 +59,8 @@ def _check_vertices(vertices):
     finite = np.isfinite(converted)
     if not finite.all():
         v = int(np.argmin(finite.all(axis=1)))
-        raise ValueError(
-            f"vertex {v} has a coordinate that is not finite: {converted[v].tolist()}; "
-            f"{REPAIR_NOT_FINITE} remove such vertices"
-        )
+        values = converted[v].tolist()
+        raise NotFiniteError(f"vertex {v} has a coordinate that is not finite: {values}")
     return converted
 
 
@@ -94,10 +95,7 @@ def _check_faces(faces, vertex_count):
     repeated = (a == b) | (b == c) | (c == a)
     if repeated.any():
         f = int(np.argmax(repeated))
-        raise ValueError(
-            f"face {f} has a repeated vertex: {faces[f].tolist()}; "
-            f"the PyMeshLab filter {REPAIR_NULL_FACES} removes such faces"
-        )
+        raise RepeatedVertexError(f"face {f} has a repeated vertex: {faces[f].tolist()}")
     return np.ascontiguousarray(faces, np.int32)
 
 

@@ -96,13 +96,30 @@ def apply(ms: MeshSet, filter_: Filter, values: dict[str, Any]) -> dict[str, Any
             # A caller who keeps the exception, as an interactive session does, would hold the mesh.
             traceback.clear_frames(error.__traceback__)
             raise pymeshlab.PyMeshLabException(
-                f"Failed to apply filter: {filter_.name}\nDetails: {error}"
+                f"Failed to apply filter: {filter_.name}\nDetails: {error}{_cure(error)}"
             ) from error
         if verbosity.all:
             with native.in_order():
                 print(f"LOG: 2 {log}\nLOG: 2 {filter_.name} applied!    [ 100% ]", file=sys.stderr)
                 print()
         return returned
+
+
+def _cure(error: Exception) -> str:
+    """What removes from a mesh what the functions on arrays refuse; empty for other errors."""
+    if not isinstance(error, ValueError):
+        return ""
+    from ..mesh.validate import NotFiniteError, RepeatedVertexError
+
+    if isinstance(error, NotFiniteError):
+        return (
+            "; the PyMeshLab filters compute_selection_by_condition_per_vertex"
+            "(condselect='x-x!=0 || y-y!=0 || z-z!=0') and meshing_remove_selected_vertices() "
+            "remove such vertices"
+        )
+    if isinstance(error, RepeatedVertexError):
+        return "; the PyMeshLab filter meshing_remove_null_faces removes such faces"
+    return ""
 
 
 def _run(ms: MeshSet, filter_: Filter, values: dict[str, Any]) -> tuple[dict[str, Any], str]:

@@ -52,7 +52,7 @@ def test_wrong_vertices(vertices, error, message):
         (with_face(7, (0, 1, 14)), ValueError, r"face 7 .*0 .. 13: \[0, 1, 14\]"),
         (with_face(9, (0, -1, 2)), ValueError, r"face 9 .*\[0, -1, 2\]"),
         (np.full((1, 3), 2**63, np.uint64), ValueError, "face 0 .*9223372036854775808"),
-        (with_face(3, (4, 5, 4)), ValueError, "face 3 .*repeated.*meshing_remove_null_faces"),
+        (with_face(3, (4, 5, 4)), ValueError, "face 3 .*repeated"),
         (with_face(4, (4, 5, 5)), ValueError, "face 4 .*repeated"),
         (with_face(4, (4, 4, 5)), ValueError, "face 4 .*repeated"),
     ],

@@ -23,8 +23,8 @@ from .mesh.parallel import CHUNK, thread_pool
 from .mesh.validate import check_mesh, in_input_units, to_unit_scale
 
 FULL_TURN = 2.0 * math.pi
-# Faces between two looks at the keyboard.
-SLICE = 20_000
+# Faces of one call of a kernel, which no interrupt ends.
+FACES_PER_CALL = 20_000
 # Angles that are multiplied as complex numbers before these get too small.
 MOST_PRODUCTS = 64
 
@@ -208,17 +208,17 @@ def self_intersections(vertices, faces):
     that share an edge, and may count others.
     """
     mesh, _ = _unit_mesh(vertices, faces)
-    space = build_bvh(mesh)
+    bvh = build_bvh(mesh)
     marked = np.zeros(len(mesh.origin) // 3, np.bool_)
-    for start in range(0, len(marked), SLICE):
-        mark_intersecting(mesh, space, marked, start, min(start + SLICE, len(marked)))
+    for start in range(0, len(marked), FACES_PER_CALL):
+        mark_intersecting(mesh, bvh, marked, start, min(start + FACES_PER_CALL, len(marked)))
     return marked
 
 
 def willmore_energy_of(mesh):
     """Return the Willmore energy of a half-edge mesh, as `willmore_energy` does."""
-    pieces = -(-len(mesh.origin) // CHUNK)
-    task = _Parts(mesh, interior_vertices(mesh), np.zeros(pieces), np.zeros(pieces))
+    chunks = -(-len(mesh.origin) // CHUNK)
+    task = _Parts(mesh, interior_vertices(mesh), np.zeros(chunks), np.zeros(chunks))
     with thread_pool() as parallel_for:
         parallel_for(_add_angles, task, len(mesh.origin), CHUNK)
     half_turns = task.half_turns.sum() - 2.0 * np.count_nonzero(task.interior)
@@ -235,7 +235,7 @@ def _unit_mesh(vertices, faces):
 
 
 class _Parts(NamedTuple):
-    """A mesh, its interior vertices, and for each piece of its half-edges a sum of angles.
+    """A mesh, its interior vertices, and for each chunk of its half-edges a sum of angles.
 
     The angles of the edges of these vertices, at each of them, make ``pi * half_turns + rest``.
     """

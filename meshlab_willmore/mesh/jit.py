@@ -17,7 +17,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numba import njit
+from numba import njit, types
 from numba.core.registry import CPUDispatcher
 
 from . import compiling  # noqa: F401 - it announces what is compiled
@@ -40,14 +40,27 @@ class _Inner(CPUDispatcher):
     """A kernel for other kernels; a call from Python compiles it once more, for this process.
 
     Without that, Numba would call a function that is not there.
+
+    It is compiled for integers of 64 bits only. Numba would compile it, and what it calls, again
+    for each combination of int32 (from an array), int64 and constants.
     """
 
     _outer = None
+
+    def get_call_template(self, args, kws):
+        """Return what a call with arguments of these types calls."""
+        return super().get_call_template(tuple(map(_widened, args)), kws)
 
     def __call__(self, *args, **given):
         if self._outer is None:
             self._outer = _compiled(self.py_func)
         return self._outer(*args, **given)
+
+
+def _widened(kind):
+    """Return the type that a kernel for other kernels gets an argument as."""
+    kind = types.unliteral(kind)
+    return types.int64 if kind == types.int32 else kind
 
 
 def _compiled(function, **options):

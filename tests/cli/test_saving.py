@@ -159,6 +159,7 @@ def test_part_that_the_format_cannot_hold_is_named(tmp_path, capsys):
 
 # Whole or not at all
 
+
 @contextmanager
 def limited_files(size):
     """Files can't become larger, as on a full disk."""

@@ -4,8 +4,10 @@ import numpy as np
 import pymeshlab
 
 from meshlab_willmore.meshset import ply
+from meshlab_willmore.meshset.snapshot import take
 from tests import meshes
 from tests.meshset.conftest import random_transform, set_of
+from tests.test_mapping import distorted
 
 ATTRIBUTES = ["My Attr", "x", "w"]
 
@@ -124,3 +126,33 @@ def plain_set(tmp_path, radius=False, edges=()):
     ms = pymeshlab.MeshSet()
     ms.load_new_mesh(str(tmp_path / "plain.ply"))
     return ms
+
+
+def seams_of(ms):
+    """Edges whose two faces have other texture coordinates at an end, or another texture."""
+    records = take(ms).ply.faces
+    if "texcoord" not in records.dtype.names:
+        return set()
+    count = len(records)
+    number = records["texnumber"] if "texnumber" in records.dtype.names else np.zeros(count, int)
+    rows = zip(
+        records["vertex_indices"].tolist(),
+        records["texcoord"].reshape(-1, 3, 2).tolist(),
+        number.tolist(),
+        strict=True,
+    )
+    sides = {}
+    for face, corners, texture in rows:
+        for c in range(3):
+            ends = {face[c]: tuple(corners[c]), face[c - 2]: tuple(corners[c - 2])}
+            sides.setdefault(frozenset(ends), []).append((ends, texture))
+    return {edge for edge, (one, *others) in sides.items() if any(one != o for o in others)}
+
+
+def surface(seed):
+    """A bumpy grid, and a mapping of it to a plane."""
+    vertices, faces = meshes.grid(8, 8)
+    vertices[:, 2] = 0.6 * np.random.default_rng(1).random(len(vertices))
+    uv = vertices[:, :2].copy()
+    distorted(vertices, faces, uv, seed)
+    return vertices, faces, uv

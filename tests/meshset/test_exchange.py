@@ -1,15 +1,11 @@
 """Nothing of the mesh is lost: each promise on a mesh that has everything, then on real meshes."""
 
-import struct
-import zlib
-
 import numpy as np
 import pymeshlab
 import pytest
 
-from meshlab_willmore import optimize_flips
-from meshlab_willmore.meshset import edge_flags, exchange, ply
-from meshlab_willmore.meshset.snapshot import take
+from meshlab_willmore.meshset import exchange, ply
+from meshlab_willmore.meshset.snapshot import selected, take
 from tests import meshes
 from tests.meshset.conftest import FLIP, SAMPLES, set_of
 from tests.meshset.contents import (
@@ -18,6 +14,7 @@ from tests.meshset.contents import (
     plain_set,
     quad_set,
     rich_set,
+    seams_of,
     state,
 )
 
@@ -143,246 +140,6 @@ def test_selection_without_selected_faces_flips_nothing(bumpy):
     assert bumpy.apply_filter(FLIP, selection=True)["flips"] == 0
 
 
-# --- polygons ----------------------------------------------------------------------------------
-
-
-def polygons_of(ms):
-    return sorted(tuple(sorted(p)) for p in ms.current_mesh().polygonal_face_list() if len(p) > 3)
-
-
-def test_polygons_survive():
-    ms = quad_set()
-    before = polygons_of(ms)
-    assert len(before) == 32
-    assert ms.apply_filter(FLIP)["flips"] > 0
-    assert polygons_of(ms) == before
-
-
-def test_polygons_of_a_real_mesh_survive():
-    ms = pymeshlab.MeshSet()
-    ms.load_new_mesh(str(SAMPLES / "cow.obj"))
-    ms.compute_selection_by_condition_per_face(condselect="fi < 2500")
-    ms.meshing_tri_to_quad_dominant()
-    before = polygons_of(ms)
-    assert len(before) > 1000
-    ms.apply_filter(FLIP, selection=False, energy="willmore")
-    assert polygons_of(ms) == before
-
-
-@pytest.mark.parametrize("first_bit", edge_flags._SIDE_BITS)
-def test_side_bits_move_with_their_sides(first_bit):
-    """A flip beside a marked side turns its face in the slot: the mark has to stay on the side."""
-    ms = set_of(*meshes.patch(60))
-    snapshot = take(ms)
-    records = snapshot.ply.faces
-    marked = np.flatnonzero(records["vertex_indices"] % 2 == 0)
-    records["flags"] = 0
-    for side in marked:
-        records["flags"][side // 3] |= 1 << (first_bit + side % 3)
-    new = optimize_flips(snapshot.vertices, snapshot.faces)
-    assert new.flips > 10
-    flags = edge_flags.carry_side_bits(snapshot.ply, new.faces)
-    before = sides_of(snapshot.faces, records["flags"], first_bit)
-    after = sides_of(new.faces, flags, first_bit)
-    kept = before.keys() & after.keys()
-    assert len(kept) < len(before), "some sides are flipped away"
-    assert {side: after[side] for side in kept} == {side: before[side] for side in kept}
-    assert not any(after[side] for side in after.keys() - kept), "new sides are not marked"
-
-
-def sides_of(faces, flags, first_bit):
-    bits = edge_flags._side_bits(flags, first_bit)
-    heads = np.roll(faces, -1, axis=1)
-    both = zip(faces.ravel().tolist(), heads.ravel().tolist(), strict=True)
-    return dict(zip(both, bits.ravel().tolist(), strict=True))
-
-
-# --- textures ----------------------------------------------------------------------------------
-
-
-@pytest.fixture
-def textured():
-    ms = pymeshlab.MeshSet()
-    ms.load_new_mesh(str(SAMPLES / "bunny10k_textured.obj"))
-    return ms
-
-
-def wedges_by_corner(ms):
-    """{(face's texture chart corner)}: the set of (vertex, u, v) over all corners."""
-    mesh = ms.current_mesh()
-    corners = np.column_stack([mesh.face_matrix().ravel(), mesh.wedge_tex_coord_matrix()])
-    return np.unique(corners, axis=0)
-
-
-def pixels(image, folder):
-    path = folder / "pixels.bmp"
-    image.save(str(path))
-    return path.read_bytes()
-
-
-@pytest.mark.heavy
-def test_textures_survive(textured, tmp_path):
-    before = state(textured)
-    image = pixels(textured.current_mesh().texture(0), tmp_path)
-    coordinates = wedges_by_corner(textured)
-    assert textured.apply_filter(FLIP)["flips"] > 0
-    assert_same_state(state(textured), before)
-    assert pixels(textured.current_mesh().texture(0), tmp_path) == image
-    after = wedges_by_corner(textured)
-    rows = {tuple(row) for row in coordinates}
-    assert all(tuple(row) in rows for row in after), "each corner takes a coordinate of its vertex"
-
-
-def seams_of(ms):
-    """Edges whose two faces have other texture coordinates at an end, or another texture."""
-    records = take(ms).ply.faces
-    if "texcoord" not in records.dtype.names:
-        return set()
-    count = len(records)
-    number = records["texnumber"] if "texnumber" in records.dtype.names else np.zeros(count, int)
-    rows = zip(
-        records["vertex_indices"].tolist(),
-        records["texcoord"].reshape(-1, 3, 2).tolist(),
-        number.tolist(),
-        strict=True,
-    )
-    sides = {}
-    for face, corners, texture in rows:
-        for c in range(3):
-            ends = {face[c]: tuple(corners[c]), face[c - 2]: tuple(corners[c - 2])}
-            sides.setdefault(frozenset(ends), []).append((ends, texture))
-    return {edge for edge, (one, *others) in sides.items() if any(one != o for o in others)}
-
-
-@pytest.mark.heavy
-@pytest.mark.slow
-def test_seams_stay(textured):
-    before = seams_of(textured)
-    assert len(before) > 100
-    textured.apply_filter(FLIP)
-    assert seams_of(textured) == before
-
-
-@pytest.mark.heavy
-def test_the_image_of_a_textured_face_stays_in_its_chart(textured):
-    """No new face stretches over the texture: its area there stays positive and in scale."""
-    before = _texture_areas(textured)
-    textured.apply_filter(FLIP)
-    after = _texture_areas(textured)
-    assert abs(after.sum() - before.sum()) < 1e-6 * abs(before).sum()
-
-
-def _texture_areas(ms):
-    a, b, c = ms.current_mesh().wedge_tex_coord_matrix().reshape(-1, 3, 2).transpose(1, 0, 2)
-    return 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
-
-
-def two_textures(tmp_path, names=("first.png", "second.png")):
-    """A bumpy grid whose left half uses one image and whose right half uses another."""
-    ms = pymeshlab.MeshSet()
-    ms.load_new_mesh(str(SAMPLES / "bunny10k_textured.obj"))
-    tmp_path = tmp_path / "mesh"
-    for name in names:
-        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
-        exchange._save_image(ms.current_mesh().texture(0), tmp_path / name)
-    vertices, faces = meshes.grid(10, 10)
-    vertices[:, 2] = np.random.default_rng(2).random(len(vertices))
-    lines = [f"v {x} {y} {z}" for x, y, z in vertices]
-    lines += [f"vt {x / 10} {y / 10}" for x, y, _ in vertices]
-    current = ""
-    materials = []
-    for face in faces:
-        name = names[int(vertices[face, 0].mean() > 5)]
-        if name != current:
-            lines.append(f"usemtl material{names.index(name)}")
-            current = name
-        lines.append("f " + " ".join(f"{v + 1}/{v + 1}" for v in face))
-    for n, name in enumerate(names):
-        materials += [f"newmtl material{n}", f"map_Kd {name}"]
-    (tmp_path / "two.mtl").write_text("\n".join(materials) + "\n")
-    (tmp_path / "two.obj").write_text("mtllib two.mtl\n" + "\n".join(lines) + "\n")
-    both = pymeshlab.MeshSet()
-    both.load_new_mesh(str(tmp_path / "two.obj"))
-    return both
-
-
-NAMES = [
-    ("first.png", "second.png"),
-    ("images/first.jpg", "second.png"),
-    ("../images/first.png", "../../second.png"),
-]
-
-
-@pytest.mark.parametrize("names", NAMES)
-def test_several_textures_survive(tmp_path, names):
-    ms = two_textures(tmp_path, names)
-    assert ms.current_mesh().texture_number() == 2
-    before = state(ms)
-    numbers = take(ms).ply.faces["texnumber"]
-    assert set(numbers) == {0, 1}
-    assert ms.apply_filter(FLIP)["flips"] > 0
-    assert_same_state(state(ms), before)
-    after = take(ms)
-    np.testing.assert_array_equal(after.ply.faces["texnumber"], numbers)
-    middle = after.vertices[after.faces].mean(axis=1)[:, 0]
-    assert ((middle > 5) == (numbers == numbers[-1])).all(), "no flip across the two textures"
-
-
-@pytest.mark.parametrize(
-    "name", ["with space.png", "photo.jpg", "scan.tga", "Wände.png", "TEXTUR~1.PNG", "50%25.png"]
-)
-@pytest.mark.heavy
-def test_a_texture_keeps_any_name(textured, tmp_path, name):
-    exchange._save_image(textured.current_mesh().texture(0), tmp_path / name)
-    textured.set_texture_per_mesh(textname=str(tmp_path / name))
-    image = pixels(textured.current_mesh().texture(0), tmp_path)
-    before = state(textured)
-    textured.apply_filter(FLIP)
-    assert_same_state(state(textured), before)
-    assert pixels(textured.current_mesh().textures()[name], tmp_path) == image
-
-
-def black_png(side):
-    """A square grey-scale picture."""
-    pixel_rows = zlib.compress(bytes(side * (side + 1)))
-    chunks = [(b"IHDR", struct.pack(">IIBBBBB", side, side, 8, 0, 0, 0, 0))]
-    chunks += [(b"IDAT", pixel_rows), (b"IEND", b"")]
-    return b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-        for kind, data in chunks
-    )
-
-
-@pytest.mark.heavy
-def test_a_file_of_a_textures_name_in_the_working_folder_is_not_taken(
-    textured, tmp_path, monkeypatch
-):
-    (tmp_path / "TextureDouble_A.png").write_bytes(black_png(4))
-    monkeypatch.chdir(tmp_path)
-    image = pixels(textured.current_mesh().texture(0), tmp_path)
-    textured.apply_filter(FLIP)
-    assert pixels(textured.current_mesh().texture(0), tmp_path) == image
-    assert exchange.Path.cwd() == tmp_path
-
-
-def test_several_oddly_named_textures_are_lost_by_name_only(tmp_path):
-    ms = two_textures(tmp_path, ("a~1.png", "b.png"))
-    with pytest.raises(pymeshlab.PyMeshLabException, match="a~1.png"):
-        ms.apply_filter(FLIP)
-    image = pixels(ms.current_mesh().textures()["a~1.png"], tmp_path)
-    assert ms.apply_filter(FLIP, allowloss=True)["flips"] > 0
-    images = ms.current_mesh().textures()
-    assert set(images) == {"a%7E1.png", "b.png"}
-    assert pixels(images["a%7E1.png"], tmp_path) == image
-
-
-@pytest.mark.heavy
-def test_the_current_folder_and_the_users_files_stay(textured, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    textured.apply_filter(FLIP)
-    assert not list(tmp_path.iterdir())
-
-
 # --- what can't be carried ---------------------------------------------------------------------
 
 
@@ -424,111 +181,6 @@ def test_attributes_that_cannot_be_named_are_an_error(bumpy):
     with pytest.raises(pymeshlab.PyMeshLabException, match="odd names"):
         bumpy.apply_filter(FLIP)
     assert bumpy.apply_filter(FLIP, allowloss=True)["flips"] > 0
-
-
-def sizes(ms):
-    return {name: (i.width(), i.height()) for name, i in ms.current_mesh().textures().items()}
-
-
-def split_off(ms):
-    """Its texture has a name and an image of no size."""
-    ms.generate_splitting_by_connected_components()
-    return ms
-
-
-def split_off_alone(ms):
-    split_off(ms).set_current_mesh(0)
-    ms.delete_current_mesh()
-    return ms
-
-
-def copied(ms):
-    """Its texture has a name and no image at all."""
-    copy = pymeshlab.MeshSet()
-    copy.add_mesh(ms.current_mesh())
-    return copy
-
-
-@pytest.mark.parametrize("taken", [split_off, split_off_alone, copied])
-@pytest.mark.parametrize(
-    "names",
-    [
-        ("a.png", "b.png"),
-        ("dummy.png", "a"),
-        ("one/a.png", "other/a.png"),
-        ("a.png", "A.PNG"),
-        ("missing.png", "b.png"),
-        ("x" * 255, "y.png"),
-    ],
-    ids=lambda names: names[0][:9],
-)
-@pytest.mark.heavy
-def test_textures_without_pixels_stay_so(tmp_path, names, taken):
-    ms = taken(two_textures(tmp_path, names))
-    before, images, textures = state(ms), sizes(ms), take(ms).ply.textures
-    numbers = take(ms).ply.faces["texnumber"]
-    assert all(size == (0, 0) for size in images.values())
-    assert bool(images) == (taken is not copied)
-    mesh_id, others = ms.current_mesh_id(), [mesh.id() for mesh in ms]
-    assert ms.apply_filter(FLIP, maxflips=1)["flips"] == 1
-    after = state(ms)
-    for components in ("has_vertex_color", "has_vertex_scalar"):
-        # They come with the way in which the mesh is carried.
-        assert after.pop(components) >= before.pop(components)
-    assert_same_state({name: after[name] for name in before}, before)
-    assert (sizes(ms), take(ms).ply.textures) == (images, textures)
-    np.testing.assert_array_equal(take(ms).ply.faces["texnumber"], numbers)
-    assert (ms.current_mesh_id(), [mesh.id() for mesh in ms]) == (mesh_id, others)
-    ms.create_cube()
-    assert ms.current_mesh_id() == max(others) + 1
-
-
-def test_a_flip_does_not_make_a_picture_to_be_saved_over_the_users(textured, tmp_path):
-    split_off(textured)
-    textured.apply_filter(FLIP, maxflips=1)
-    picture = tmp_path / "TextureDouble_A.png"
-    picture.write_bytes(black_png(4))
-    with pytest.raises(pymeshlab.PyMeshLabException, match="Failed to save the image"):
-        textured.save_current_mesh(str(tmp_path / "part.obj"))
-    assert picture.read_bytes() == black_png(4)
-    assert (tmp_path / "part.obj").exists()
-
-
-@pytest.mark.heavy
-def test_one_of_several_textures_without_pixels_is_lost_by_name_only(textured, tmp_path):
-    split_off(textured)
-    textured.compute_matrix_from_translation(axisx=1.0)
-    textured.set_current_mesh(0)
-    exchange._save_image(textured.current_mesh().texture(0), tmp_path / "other.png")
-    textured.set_texture_per_mesh(textname=str(tmp_path / "other.png"))
-    textured.generate_by_merging_visible_meshes()
-    before, faces = sizes(textured), textured.current_mesh().face_matrix()
-    assert before == {"other.png": (512, 512), "TextureDouble_A.png": (0, 0)}
-    with pytest.raises(pymeshlab.PyMeshLabException, match="TextureDouble_A.png.*allowloss"):
-        textured.apply_filter(FLIP)
-    assert sizes(textured) == before
-    np.testing.assert_array_equal(textured.current_mesh().face_matrix(), faces)
-    assert textured.apply_filter(FLIP, allowloss=True)["flips"] > 0
-    assert sizes(textured)["other.png"] == (512, 512)
-
-
-@pytest.mark.heavy
-def test_two_textures_of_one_name_stay_two(tmp_path):
-    ms = two_textures(tmp_path, ("one/a.png", "other/a.png"))
-    ms.save_current_mesh(str(tmp_path / "both.ply"), save_textures=False)
-    exchange._save_image(ms.current_mesh().texture(0), tmp_path / "a.png")
-    header = (tmp_path / "both.ply").read_bytes()
-    for folder in (b"one/", b"other/"):
-        header = header.replace(b"TextureFile " + folder, b"TextureFile ")
-    (tmp_path / "both.ply").write_bytes(header)
-    ms.clear()
-    ms.load_new_mesh(str(tmp_path / "both.ply"))
-    before = take(ms).ply
-    assert before.textures == ("a.png", "a.png")
-    assert ms.apply_filter(FLIP)["flips"] > 0
-    after = take(ms).ply
-    assert after.textures == before.textures
-    np.testing.assert_array_equal(after.faces["texnumber"], before.faces["texnumber"])
 
 
 def test_what_pymeshlab_drops_is_noticed(bumpy, monkeypatch):
@@ -581,6 +233,116 @@ def test_a_full_disk_changes_nothing(bumpy, monkeypatch, tmp_path):
         bumpy.apply_filter(FLIP)
     np.testing.assert_array_equal(bumpy.current_mesh().face_matrix(), faces)
     assert len(bumpy) == 1
+
+
+# --- each kind of data alone --------------------------------------------------------------------
+
+
+def with_filter(name, **options):
+    def make(tmp_path):
+        ms = plain_set(tmp_path)
+        ms.apply_filter(name, **options)
+        return ms
+
+    return make
+
+
+def with_attribute(tmp_path):
+    ms = plain_set(tmp_path)
+    ms.current_mesh().add_face_custom_scalar_attribute(np.arange(596) / 7, "Mine")
+    return ms
+
+
+# Such that the two faces of an edge agree: else all edges would be seams.
+WEDGES = {"u0": "x0", "v0": "y0", "u1": "x1", "v1": "y1", "u2": "x2", "v2": "y2"}
+ALONE = {
+    "nothing": plain_set,
+    "vertex selection": with_filter("compute_selection_by_condition_per_vertex", condselect="vi>9"),
+    "face selection": with_filter("compute_selection_by_condition_per_face", condselect="fi>99"),
+    "edge selection": with_filter("compute_selection_crease_per_edge"),
+    "vertex colours": with_filter("compute_color_by_function_per_vertex", x="vi/2"),
+    "face colours": with_filter("compute_color_by_function_per_face", r="fi/3"),
+    "vertex scalars": with_filter("compute_scalar_by_function_per_vertex", q="x*y"),
+    "face scalars": with_filter("compute_scalar_by_function_per_face", q="fi/7"),
+    "vertex texture": with_filter("compute_texcoord_by_function_per_vertex", u="x", v="y"),
+    "wedge texture": with_filter("compute_texcoord_by_function_per_wedge", **WEDGES),
+    "quads": lambda _: quad_set(),
+    "radii": lambda tmp_path: plain_set(tmp_path, radius=True),
+    "edges": lambda tmp_path: plain_set(tmp_path, edges=[(0, 5), (9, 2)]),
+    "attribute": with_attribute,
+}
+
+
+@pytest.mark.parametrize("make", ALONE.values(), ids=ALONE)
+def test_each_thing_survives_alone_and_nothing_comes_with_it(make, tmp_path):
+    ms = make(tmp_path)
+    before, shown = take(ms), state(ms)
+    assert ms.apply_filter(FLIP)["flips"] > 0
+    assert_same_state(state(ms), shown)
+    after = take(ms)
+    assert after.ply.vertices.dtype == before.ply.vertices.dtype
+    assert after.ply.vertices.tobytes() == before.ply.vertices.tobytes()
+    assert after.ply.faces.dtype == before.ply.faces.dtype
+    for field in set(before.ply.faces.dtype.names) - {"vertex_indices", "flags", "texcoord"}:
+        np.testing.assert_array_equal(after.ply.faces[field], before.ply.faces[field])
+    for left, right in zip(after.attributes, before.attributes, strict=True):
+        assert left[:2] == right[:2]
+        np.testing.assert_array_equal(left.values, right.values)
+
+
+def test_a_plain_mesh_travels_with_positions_faces_and_normals_only(tmp_path, monkeypatch):
+    written, write = [], ply.write
+
+    def noted(path, mesh):
+        written.append(mesh)
+        write(path, mesh)
+
+    ms = plain_set(tmp_path)
+    monkeypatch.setattr(exchange.ply, "write", noted)
+    assert ms.apply_filter(FLIP)["flips"] > 0
+    part, whole = written
+    for mesh in (part, whole):
+        assert mesh.vertices.dtype.names == ("x", "y", "z", "nx", "ny", "nz")
+        assert mesh.faces.dtype.names == ("vertex_indices_count", "vertex_indices")
+    assert len(part.faces) == 100
+    assert len(whole.faces) == 596
+
+
+def test_the_whole_mesh_is_loaded_once(tmp_path, monkeypatch):
+    loads, load = [], exchange.native.load
+
+    def noted(target, path):
+        load(target, path)
+        loads.append((target is ms, target.current_mesh().face_number()))
+
+    ms = plain_set(tmp_path)
+    monkeypatch.setattr(exchange.native, "load", noted)
+    assert ms.apply_filter(FLIP)["flips"] > 0
+    assert loads == [(False, 100), (True, 596)]
+
+
+def test_the_part_that_is_tried_has_all_that_the_mesh_has():
+    """Flags, edges and attributes too, which need not lie at the beginning."""
+    whole = take(rich_set())
+    for records, selected_one in ((whole.ply.faces, 555), (whole.ply.vertices, 288)):
+        records["flags"] = 0
+        records["flags"][selected_one] = 0x20
+    part = exchange._part(whole)
+    assert len(part.ply.faces) == 101
+    assert selected(part.ply.faces).nonzero()[0].tolist() == [100]
+    assert selected(part.ply.vertices).sum() == 1
+    assert part.ply.faces.dtype == whole.ply.faces.dtype
+    assert len(part.attributes) == len(whole.attributes) == 4 * len(ATTRIBUTES)
+    corners = part.vertices[part.faces]
+    kept = [*range(100), 555]
+    np.testing.assert_array_equal(corners, whole.vertices[whole.faces[kept]])
+    np.testing.assert_array_equal(part.vertices[part.ply.edges], whole.vertices[whole.ply.edges])
+    place = {tuple(point): v for v, point in enumerate(whole.vertices.tolist())}
+    rows = [place[tuple(point)] for point in part.vertices.tolist()]
+    np.testing.assert_array_equal(part.normals, whole.normals[rows])
+    for less, more in zip(part.attributes, whole.attributes, strict=True):
+        wanted = rows if less.kind.startswith("v") else kept
+        np.testing.assert_array_equal(less.values, more.values[wanted])
 
 
 # --- real meshes -------------------------------------------------------------------------------

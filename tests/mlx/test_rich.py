@@ -95,6 +95,12 @@ def test_a_text_is_read_in_its_type(type, text, value):
         ("RichBool", "yes", "'yes' is neither 'true' nor 'false'"),
         ("RichInt", "1.0", "'1.0' is not a whole number"),
         ("RichFloat", "5%", "'5%' is not a number"),
+        # Half of the least single above zero, which rounds to zero.
+        (
+            "RichFloat",
+            repr(2.0**-150),
+            f"'{2.0**-150!r}' is too close to zero for MeshLab to read; write 0",
+        ),
         ("RichAbsPerc", "%", "'%' is not a number"),
         ("RichMesh", "-1", "'-1' is not between 0 and 2147483647"),
         ("RichPosition", "1 2", "'1 2' is not 3 numbers"),

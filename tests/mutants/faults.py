@@ -21,7 +21,7 @@ ANGLES = "tests/energy/test_angles.py"
 MEASURE = "tests/test_measure.py"
 MORE_ENERGIES = "tests/energy/test_more_energies.py"
 READ = "tests/mlx/test_read.py tests/mlx/test_broken.py"
-RICH = "tests/mlx/test_rich.py"
+RICH = "tests/mlx/test_rich.py tests/mlx/test_broken.py"
 CHECK = "tests/meshset/test_check.py"
 RECORDING = "tests/meshset/test_recording.py"
 

@@ -218,19 +218,22 @@ SEEN_LATE = """
 import pymeshlab, sys
 ms = pymeshlab.MeshSet()
 ms.create_sphere(subdiv=2)
+kept = pymeshlab.MeshSet.apply_filter
 import meshlab_willmore
 ms.apply_coord_taubin_smoothing(lambda_=0.1234567)
 ms.get_willmore_measures()
+kept(ms, "set_selection_all")
 ms.set_selection_none()
 ms.save_filter_script(sys.argv[1])
 """
 
 
 @pytest.mark.slow
-def test_steps_from_before_the_import_come_first(tmp_path):
+def test_steps_from_before_the_import_come_first_and_unseen_ones_last(tmp_path):
     path = tmp_path / "script.mlx"
     subprocess.run([sys.executable, "-c", SEEN_LATE, str(path)], check=True)
-    assert names(path) == ["Sphere", "Taubin Smooth", "Willmore measures", "Select None"]
+    before, after = ["Sphere", "Taubin Smooth"], ["Select All", "Select None"]
+    assert names(path) == [*before, "Willmore measures", *after]
     smooth = {p.name: p.value for p in read(path)[1].params}
     assert smooth["lambda"] == 0.123457
 

@@ -1,15 +1,11 @@
-"""Which formats PyMeshLab writes, what each can hold, and what a mesh loses in one.
-
-PyMeshLab itself is asked: a small mesh is saved and loaded again.
-"""
+"""Which formats PyMeshLab writes, what each can hold, and what a mesh loses in one."""
 
 from __future__ import annotations
 
 import functools
-import tempfile
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import numpy as np
@@ -42,8 +38,6 @@ MANNERS = {"mp": ("save_polygonal", True), "sa": ("binary", False)}
 
 # Their writers cut a path at its first dot, and leave files beside the folder they were given.
 _ASTRAY = frozenset({"u3d", "idtf"})
-# PyMeshLab does not load these; some of the writers crash for meshes as small as ours.
-_WRITTEN_ONLY = frozenset({"dxf", "json", "nxs", "nxz"})
 
 # A mesh so many times farther from the origin than it is wide may lose its shape by rounding.
 _FAR = 100.0
@@ -105,172 +99,84 @@ def _no_place(ending: str, names: Iterable[str]) -> str:
 # --- what a mesh loses in a file ---------------------------------------------------------------
 
 
+# Parts that `-m` does not name.
+_FACES, _EDGES, _LOOSE = "faces", "edges", "vertices without faces"
+_OTHER_PARTS = (_FACES, _EDGES, _LOOSE)
+# Some formats hold texture coordinates only of meshes with a texture.
+_WITH_TEXTURE = "wt with a texture"
+# What a mesh still has after PyMeshLab saved and loaded it; what is not loaded takes the keywords.
+_HELD = {
+    "3ds": (_FACES, _LOOSE),
+    "ctm": (_FACES, _LOOSE),
+    "dae": (_FACES, _LOOSE, "vc", _WITH_TEXTURE),
+    "dxf": (_FACES, _EDGES, _LOOSE),
+    "e57": (_LOOSE, "vc", "vq"),
+    "json": (_FACES, _EDGES, _LOOSE, "vc", "vt"),
+    "nxs": (_FACES, _EDGES, _LOOSE, "vc", "vt", "wt"),
+    "nxz": (_FACES, _EDGES, _LOOSE, "vc", "vt", "wt"),
+    "obj": (_FACES, _EDGES, _LOOSE, "vc", "fc", "vt", "wt"),
+    "off": (_FACES, _LOOSE, "vc", "fc", "vt"),
+    "ply": (_FACES, _LOOSE, "vc", "fc", "vq", "fq", "vt", "wt"),
+    "stl": (_FACES, "fc"),
+    "wrl": (_FACES, _LOOSE, "vc", _WITH_TEXTURE),
+    "x3d": (_FACES, _LOOSE, "vc", _WITH_TEXTURE),
+    "xyz": (_LOOSE,),
+}
+
+
 def losses(ms: pymeshlab.MeshSet, file: Path, ending: str, chosen: bool) -> Iterator[str]:
     """What the current mesh has and its `file` has not, one message for each kind.
 
     If the parts to save were `chosen` by `-m`, no other part is missed.
     """
     mesh = ms.current_mesh()
-    wedges = _WEDGES._replace(has_image=mesh.texture_number() > 0)
-    parts = _ALWAYS if chosen else (*_ALWAYS, *_BY_DEFAULT, wedges)
-    lost = [part.name for part in parts if part.is_there(mesh) and not _keeps(ending, part)]
+    lost = [
+        PARTS[part][1] if part in PARTS else part
+        for part in _parts_of(mesh)
+        if not (_is_held(part, mesh, ending) or (chosen and part in PARTS))
+    ]
     if lost:
         yield _no_place(ending, lost)
     yield from _rounding_losses(mesh, file, ending)
 
 
-class _Part(NamedTuple):
-    """A part of a mesh that a format may have no place for."""
-
-    name: str
-    # Of ``save_current_mesh``; empty for none.
-    keyword: str
-    is_there: Callable[[pymeshlab.Mesh], bool]
-    # Arguments of `pymeshlab.Mesh` with which a square of two triangles has it.
-    given: Callable[[], dict[str, Any]] = dict
-    # Whether the square has texture coordinates, and a texture: some writers depend on that.
-    is_mapped: bool = False
-    has_image: bool = False
+def _is_held(part: str, mesh: pymeshlab.Mesh, ending: str) -> bool:
+    held = _HELD.get(ending, (*_OTHER_PARTS, *PARTS))
+    return part in held or (part == "wt" and _WITH_TEXTURE in held and mesh.texture_number() > 0)
 
 
-def _numbers(*shape: int) -> np.ndarray:
-    """Different numbers between 0 and 1."""
+def _parts_of(mesh: pymeshlab.Mesh) -> Iterator[str]:
+    """The parts of a mesh that have anything to lose."""
     import numpy as np
 
-    return np.linspace(0.0, 1.0, int(np.prod(shape))).reshape(shape)
+    if mesh.face_number():
+        yield _FACES
+    if mesh.edge_number():
+        yield _EDGES
+    if len(np.unique(mesh.face_matrix())) < mesh.vertex_number():
+        yield _LOOSE
+    if mesh.has_vertex_color() and _is_coloured(mesh.vertex_color_matrix()):
+        yield "vc"
+    if mesh.has_face_color() and _is_coloured(mesh.face_color_matrix()):
+        yield "fc"
+    if mesh.has_vertex_scalar() and _differ(mesh.vertex_scalar_array()):
+        yield "vq"
+    if mesh.has_face_scalar() and _differ(mesh.face_scalar_array()):
+        yield "fq"
+    if mesh.has_vertex_tex_coord() and _differ(mesh.vertex_tex_coord_matrix()):
+        yield "vt"
+    if mesh.has_wedge_tex_coord() and _differ(mesh.wedge_tex_coord_matrix()):
+        yield "wt"
 
 
 def _differ(values: np.ndarray) -> bool:
-    """Whether there is anything to lose: the values are not all the same."""
+    """Whether the values are not all the same."""
     return len(values) > 0 and bool((values != values[0]).any())
 
 
 def _is_coloured(colours: np.ndarray) -> bool:
     """Whether it is more than one grey, which PyMeshLab gives where there is no colour."""
     return _differ(colours) or bool(len(colours) and (colours[0, :3] != colours[0, 0]).any())
-
-
-def _has_loose_vertices(mesh: pymeshlab.Mesh) -> bool:
-    import numpy as np
-
-    return len(np.unique(mesh.face_matrix())) < mesh.vertex_number()
-
-
-# No mask names these.
-_ALWAYS = (
-    _Part("faces", "", lambda mesh: mesh.face_number() > 0),
-    _Part(
-        "edges",
-        "",
-        lambda mesh: mesh.edge_number() > 0,
-        lambda: {"edge_matrix": [[0, 1], [2, 3]]},
-    ),
-    _Part(
-        "vertices without faces",
-        "",
-        _has_loose_vertices,
-        lambda: {"vertex_matrix": [[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [5, 5, 5]]},
-    ),
-)
-_BY_DEFAULT = (
-    _Part(
-        "vertex colours",
-        "save_vertex_color",
-        lambda mesh: mesh.has_vertex_color() and _is_coloured(mesh.vertex_color_matrix()),
-        lambda: {"v_color_matrix": _numbers(4, 4)},
-    ),
-    _Part(
-        "face colours",
-        "save_face_color",
-        lambda mesh: mesh.has_face_color() and _is_coloured(mesh.face_color_matrix()),
-        lambda: {"f_color_matrix": _numbers(2, 4)},
-    ),
-    _Part(
-        "vertex quality",
-        "save_vertex_quality",
-        lambda mesh: mesh.has_vertex_scalar() and _differ(mesh.vertex_scalar_array()),
-        lambda: {"v_scalar_array": _numbers(4)},
-    ),
-    _Part(
-        "face quality",
-        "save_face_quality",
-        lambda mesh: mesh.has_face_scalar() and _differ(mesh.face_scalar_array()),
-        lambda: {"f_scalar_array": _numbers(2)},
-    ),
-    _Part(
-        "texture coordinates of vertices",
-        "save_vertex_coord",
-        lambda mesh: mesh.has_vertex_tex_coord() and _differ(mesh.vertex_tex_coord_matrix()),
-        lambda: {"v_tex_coords_matrix": _numbers(4, 2)},
-    ),
-)
-_WEDGES = _Part(
-    "texture coordinates",
-    "save_wedge_texcoord",
-    lambda mesh: mesh.has_wedge_tex_coord() and _differ(mesh.wedge_tex_coord_matrix()),
-    is_mapped=True,
-)
-
-
-@functools.cache
-def _keeps(ending: str, part: _Part) -> bool:
-    """Whether a small mesh with the part still has it after it was saved and loaded.
-
-    A format that can't be loaded is asked whether it takes the keyword.
-    """
-    import pymeshlab
-
-    from ..meshset import native
-
-    takes_keyword = not part.keyword or holds(ending, part.keyword)
-    if ending in _WRITTEN_ONLY:
-        return takes_keyword
-    square = {
-        "vertex_matrix": [[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]],
-        "face_matrix": [[0, 1, 2], [0, 2, 3]],
-    }
-    helper = pymeshlab.MeshSet()
-    with tempfile.TemporaryDirectory(prefix="meshlab_willmore_") as folder:
-        file = Path(folder) / f"square.{ending}"
-        try:
-            with native.muted():
-                if part.is_mapped:
-                    native.load(helper, _mapped_square(Path(folder), part.has_image))
-                else:
-                    native.add(helper, pymeshlab.Mesh(**{**square, **part.given()}))
-                helper.save_current_mesh(str(file), save_textures=False)
-                native.load(helper, file)
-        except native.ERRORS:
-            native.forget_failures()
-            return takes_keyword
-        return part.is_there(helper.current_mesh())
-
-
-_MAPPED = """v 0 0 0
-v 1 0 0
-v 1 1 0
-v 0 1 0
-vt 0 0
-vt 1 0
-vt 1 1
-vt 0 1
-f 1/1 2/2 3/3
-f 1/1 3/3 4/4
-"""
-# A PNG of one pixel.
-_IMAGE = bytes.fromhex(
-    "89504e470d0a1a0a0000000d49484452000000010000000108000000003a7e9b550000000a49"
-    "444154789c63f80f0001010100b138f6140000000049454e44ae426082"
-)
-
-
-def _mapped_square(folder: Path, has_image: bool) -> Path:
-    """A file with a square and texture coordinates: `pymeshlab.Mesh` leaves open of which image."""
-    file = folder / "mapped.obj"
-    file.write_text(("mtllib m.mtl\nusemtl m\n" if has_image else "") + _MAPPED)
-    (folder / "m.mtl").write_text("newmtl m\nmap_Kd image.png\n")
-    (folder / "image.png").write_bytes(_IMAGE)
-    return file
 
 
 # --- rounding ----------------------------------------------------------------------------------

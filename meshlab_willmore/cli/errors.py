@@ -8,7 +8,7 @@ import signal
 import sys
 import threading
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import FrameType
@@ -60,12 +60,10 @@ class WrongUse(click.ClickException):
 class OneLineErrors(click.Group):
     """A group whose commands end with one line and an exit code when something fails."""
 
-    def main(self, args: Sequence[str] | None = None, *rest: Any, **given: Any) -> Any:
-        """Run the command line with all standard streams open, and UTF-8 in names of files."""
-        if args is None:
-            restart_in_utf8()
+    def main(self, *args: Any, **given: Any) -> Any:
+        """Run the command line with all standard streams open."""
         open_closed_streams()
-        return super().main(args, *rest, **given)
+        return super().main(*args, **given)
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Read the options before the command's name."""
@@ -188,18 +186,7 @@ debug_option = click.option(
 )
 
 
-# --- the process -------------------------------------------------------------------------------
-
-
-def restart_in_utf8() -> None:
-    """Start this process again if PyMeshLab could not open files with non-ASCII names.
-
-    PyMeshLab reads the locale when it is loaded. In the C locale of batch systems Python uses UTF-8
-    for itself and others, but not where ``LC_ALL`` is set.
-    """
-    if sys.platform == "linux" and os.environ.get("LC_ALL") in ("C", "POSIX"):
-        os.environ["LC_ALL"] = "C.UTF-8"
-        os.execv(sys.executable, [sys.executable, *sys.orig_argv[1:]])
+# --- streams and signals -----------------------------------------------------------------------
 
 
 def open_closed_streams() -> None:

@@ -10,6 +10,9 @@ from meshlab_willmore.cli import loading
 
 from .conftest import ONE_PIXEL, SAMPLES, call, cube_file, square_with_textures
 
+# Most of it is read from what PyMeshLab prints: these tests come first, as tests/conftest.py sorts.
+pytestmark = pytest.mark.usefixtures("capfd")
+
 PLY = """ply
 format ascii 1.0
 element vertex 3
@@ -26,9 +29,9 @@ end_header
 """
 
 
-def told(path, capsys):
+def told(path, capfd):
     loading.loaded(Path(path))
-    captured = capsys.readouterr()
+    captured = capfd.readouterr()
     assert captured.out == ""
     lines = captured.err.splitlines()
     assert all(line.startswith(f"Note: {path}: ") for line in lines)
@@ -36,37 +39,37 @@ def told(path, capsys):
 
 
 @pytest.mark.parametrize("names", [("red.png", "blue.png"), ("gone.jpg",), ("tex/a.png", "b.png")])
-def test_missing_textures(names, capsys):
+def test_missing_textures(names, capfd):
     path = square_with_textures(".", *names)
-    assert told(path, capsys) == [
+    assert told(path, capfd) == [
         f"textures that were not found, and became dummy.png: {', '.join(names)}"
     ]
 
 
-def test_existing_textures_give_no_note(capsys):
+def test_existing_textures_give_no_note(capfd):
     path = square_with_textures(".", "red.png")
     Path("red.png").write_bytes(ONE_PIXEL)
-    assert told(path, capsys) == []
+    assert told(path, capfd) == []
 
 
-def test_texture_names_with_blanks(capsys):
+def test_texture_names_with_blanks(capfd):
     path = square_with_textures(".", "my red.png", "blue.png")
     Path("my red.png").write_bytes(ONE_PIXEL)
     Path("blue.png").write_bytes(ONE_PIXEL)
     odd = "textures with blanks in the name, which PyMeshLab can't read: my red.png"
-    assert told(path, capsys) == [odd]
+    assert told(path, capfd) == [odd]
     Path("a.ply").write_text(
         PLY.format(more="", values="").replace(
             "ascii 1.0\n", "ascii 1.0\ncomment TextureFile my red.png\n"
         )
     )
-    assert told("a.ply", capsys) == [odd]
+    assert told("a.ply", capfd) == [odd]
 
 
-def test_missing_material_file(capsys):
+def test_missing_material_file(capfd):
     path = square_with_textures(".", "red.png")
     Path("square.mtl").unlink()
-    (note,) = told(path, capsys)
+    (note,) = told(path, capfd)
     assert note.startswith("some materials definitions were not found")
 
 
@@ -96,16 +99,16 @@ def as_stl():
 @pytest.mark.parametrize(
     ("name", "data"), [("a.off", as_off), ("a.obj", as_obj), ("a.stl", as_stl)]
 )
-def test_vertices_with_nan_or_infinite_coordinates(name, data, capsys):
+def test_vertices_with_nan_or_infinite_coordinates(name, data, capfd):
     Path(name).write_bytes(data())
-    assert told(name, capsys) == [
+    assert told(name, capfd) == [
         "vertices with NaN or infinite coordinates, left out with their faces: 2"
     ]
 
 
-def test_faces_with_a_corner_twice(capsys):
+def test_faces_with_a_corner_twice(capfd):
     Path("a.off").write_text("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 0 1\n")
-    assert told("a.off", capsys) == ["faces with a corner twice, left out: 1"]
+    assert told("a.off", capfd) == ["faces with a corner twice, left out: 1"]
 
 
 @pytest.mark.parametrize(
@@ -124,38 +127,38 @@ def test_faces_with_a_corner_twice(capsys):
         ("float s;float t", []),
     ],
 )
-def test_unread_properties(properties, unknown, capsys):
+def test_unread_properties(properties, unknown, capfd):
     names = properties.split(";")
     value = " 2 1 1" if "list" in properties else " 1"
     Path("a.ply").write_text(
         PLY.format(more="".join(f"property {name}\n" for name in names), values=value * len(names))
     )
     expected = [f"properties that PyMeshLab does not read: {', '.join(unknown)}"] if unknown else []
-    assert told("a.ply", capsys) == expected
+    assert told("a.ply", capfd) == expected
 
 
-def test_unread_elements(capsys):
+def test_unread_elements(capfd):
     text = PLY.format(more="", values="").replace(
         "end_header\n",
         "element thing 1\nproperty float size\nelement none 0\nproperty float x\nend_header\n",
     )
     Path("a.ply").write_text(text + "5\n")
-    assert told("a.ply", capsys) == ["properties that PyMeshLab does not read: size (thing, float)"]
+    assert told("a.ply", capfd) == ["properties that PyMeshLab does not read: size (thing, float)"]
 
 
-def test_text_file_that_ends_early(capsys):
+def test_text_file_that_ends_early(capfd):
     corners = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
     face = f"facet normal 0 0 1\nouter loop\n{corners}endloop\nendfacet\n"
     Path("a.stl").write_text(f"solid a\n{face}endsolid a\n")
-    assert told("a.stl", capsys) == []
+    assert told("a.stl", capfd) == []
     Path("b.stl").write_text(f"solid b\n{face}")
-    assert told("b.stl", capsys) == ["it ends before its endsolid; what comes after is missing"]
+    assert told("b.stl", capfd) == ["it ends before its endsolid; what comes after is missing"]
     Path("c.xyz").write_text("0 0 0\n1 0 0\n0 1 0\n0 1\n")
-    assert told("c.xyz", capsys) == ["lines that are no points, left out: 1"]
+    assert told("c.xyz", capfd) == ["lines that are no points, left out: 1"]
 
 
 @pytest.mark.parametrize(("step", "lost"), [(0.125, True), (8, False)])
-def test_text_file_far_from_the_origin(step, lost, capsys):
+def test_text_file_far_from_the_origin(step, lost, capfd):
     corners = [(0, 0), (step, 0), (step, step), (0, step)]
     points = [f"vertex {4500000.125 + x} {5400000.125 + y} 7.5\n" for x, y in corners]
     faces = [(0, 1, 2), (0, 2, 3)]
@@ -165,7 +168,7 @@ def test_text_file_far_from_the_origin(step, lost, capsys):
     ]
     Path("a.stl").write_text(f"solid a\n{''.join(blocks)}endsolid a\n")
     note = "so far from the origin, different coordinates become the same in single precision"
-    assert (note in told("a.stl", capsys)) == lost
+    assert (note in told("a.stl", capfd)) == lost
 
 
 def chunk(number, *parts):
@@ -185,17 +188,17 @@ def as_3ds(*names):
 
 
 @pytest.mark.parametrize("names", ["a", "ab", "abc"])
-def test_several_meshes_in_a_file(names, capsys):
+def test_several_meshes_in_a_file(names, capfd):
     Path("a.3ds").write_bytes(as_3ds(*names))
     note = f"it holds {len(names)} meshes; the last one is used, the others are layers"
-    assert told("a.3ds", capsys) == [note] * (len(names) > 1)
+    assert told("a.3ds", capfd) == [note] * (len(names) > 1)
 
 
-def test_ordinary_files_give_no_note(capsys):
+def test_ordinary_files_give_no_note(capfd):
     for name in ("bone.ply", "airplane.obj", "colored_airplane.ply", "bunny10k_textured.obj"):
         loading.loaded(SAMPLES / name)
     loading.loaded(cube_file())
-    assert capsys.readouterr().err == ""
+    assert capfd.readouterr().err == ""
 
 
 def test_commands_print_a_note_once():
@@ -213,27 +216,27 @@ OBJ = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\n"
     ("more", "lost"),
     [("f 1 2 9\n", 1), ("f 7 8 9\nf 1//5 3//5 6//5\nf 1 3 4\n", 2)],
 )
-def test_faces_with_missing_vertices(more, lost, capsys):
+def test_faces_with_missing_vertices(more, lost, capfd):
     Path("a.obj").write_text(OBJ + more)
-    assert told("a.obj", capsys) == [f"faces with vertices that do not exist, left out: {lost}"]
+    assert told("a.obj", capfd) == [f"faces with vertices that do not exist, left out: {lost}"]
 
 
 @pytest.mark.parametrize("more", ["f 1 3 4\n", "f 1 2 3 4\n", "vn 0 0 1\nf 1//1 3//1 4//1\n"])
-def test_complete_faces_give_no_note(more, capsys):
+def test_complete_faces_give_no_note(more, capfd):
     Path("a.obj").write_text(OBJ + more)
-    assert told("a.obj", capsys) == []
+    assert told("a.obj", capfd) == []
 
 
-def test_unread_images_of_materials(capsys):
+def test_unread_images_of_materials(capfd):
     path = square_with_textures(".", "red.png")
     Path("red.png").write_bytes(ONE_PIXEL)
     materials = next(Path().glob("*.mtl"))
     text = materials.read_text()
     materials.write_text(text + "map_Ka red.png\nmap_Bump bumps.png\n  map_Ks shine.png\n")
     names = "bumps.png (map_Bump), shine.png (map_Ks)"
-    assert told(path, capsys) == [f"images of materials that PyMeshLab does not read: {names}"]
+    assert told(path, capfd) == [f"images of materials that PyMeshLab does not read: {names}"]
 
 
-def test_texture_without_a_name(capsys):
+def test_texture_without_a_name(capfd):
     path = square_with_textures(".", "")
-    assert told(path, capsys) == ["textures without a name, which became dummy.png"]
+    assert told(path, capfd) == ["textures without a name, which became dummy.png"]

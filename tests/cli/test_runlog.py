@@ -90,7 +90,7 @@ def test_unwritable_folder_is_found_before_the_run(run, no_step, monkeypatch, dr
 
     Path("closed").mkdir()
     monkeypatch.setattr("meshlab_willmore.cli.paths.writable_folder", lambda _: None)
-    monkeypatch.setattr("tempfile.TemporaryFile", refuse)
+    monkeypatch.setattr("meshlab_willmore.files.TemporaryFile", refuse)
     result = call(*run, "--log", "closed/log.txt", *dry)
     assert result.exit_code == 1
     assert result.stderr == "Error: cannot write into closed: Permission denied\n"

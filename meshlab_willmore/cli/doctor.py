@@ -38,6 +38,7 @@ INSTALLERS = {
     "dnf": "dnf install mesa-libGL libglvnd-opengl",
 }
 REINSTALL = f"{Path(sys.executable).name} -m pip install --force-reinstall meshlab-willmore"
+UPGRADE = f"{sys.executable} -m pip install --upgrade numba"
 WARM_UP = "meshlab-willmore warmup"
 
 # Meshes and textures are written into the folder for temporary files.
@@ -113,21 +114,17 @@ def _version(name: str) -> str:
 def settings() -> Finding:
     """Check that Numba's variables have possible values."""
     answer = ask(_SETTINGS)
+    if not answer.values:
+        return _failure("variables", answer, "Numba can't be imported", UPGRADE)
     given = [f"{key}={value}" for key, value in os.environ.items() if key.startswith("NUMBA_")]
-    return _wrong_setting("variables", answer) or Finding(
-        "variables", True, ", ".join(sorted(given)) or "no NUMBA_ variable is set"
-    )
+    return Finding("variables", True, ", ".join(sorted(given)) or "no NUMBA_ variable is set")
 
 
 def pymeshlab() -> Finding:
     """Check that PyMeshLab can be imported with all its plugins."""
     answer = ask(_PYMESHLAB)
     if not answer.values:
-        missing = machine.broken_libraries(answer.printed)
-        if missing:
-            text = f"can't be loaded: {', '.join(missing)} is missing or broken"
-            return Finding("PyMeshLab", False, text, _install_libraries())
-        return Finding("PyMeshLab", False, f"can't be loaded: {answer.last_line}", REINSTALL)
+        return _failure("PyMeshLab", answer, "can't be loaded", REINSTALL)
     plugins = sorted(set(re.findall(r"^\s*(?:lib)?(\w+)\.(?:so|dll|dylib):", answer.printed, re.M)))
     if plugins:
         missing = machine.broken_libraries(answer.printed)
@@ -137,25 +134,12 @@ def pymeshlab() -> Finding:
     return Finding("PyMeshLab", True, f"loads, with {answer.values['filters']} filters")
 
 
-def _install_libraries() -> str:
-    """The command for this machine, or all of them."""
-    here = [command for program, command in INSTALLERS.items() if shutil.which(program)]
-    return here[0] if here else " or ".join(INSTALLERS.values())
-
-
 def filters() -> Finding:
     """Check that our filters are registered, and PyMeshLab has all filters of its version."""
     answer = ask(_FILTERS)
-    wrong = _wrong_setting("filters", answer)
-    if wrong:
-        return wrong
-    missing = machine.broken_libraries(answer.printed)
-    if not answer.values and missing:
-        text = f"the Willmore filters are missing: {', '.join(missing)} is missing or broken"
-        return Finding("filters", False, text, _install_libraries())
     if not answer.values.get("registered"):
-        text = f"the Willmore filters are missing: {answer.last_line}"
-        return Finding("filters", False, text, "fix PyMeshLab first; if it is ok: " + REINSTALL)
+        cure = f"fix PyMeshLab first; if it is ok: {REINSTALL}"
+        return _failure("filters", answer, "the Willmore filters are missing", cure)
     gone = answer.values["missing"]
     if not gone:
         return Finding("filters", True, "the Willmore filters and all native ones are there")
@@ -175,12 +159,8 @@ def compiler() -> Finding:
         text = "the compiler is off, everything is slow: NUMBA_DISABLE_JIT is set"
         return Finding("Numba", False, text, "unset NUMBA_DISABLE_JIT")
     answer = ask(_COMPILER)
-    wrong = _wrong_setting("Numba", answer)
-    if wrong:
-        return wrong
     if not answer.values:
-        cure = f"{sys.executable} -m pip install --upgrade numba"
-        return Finding("Numba", False, f"can't compile: {answer.last_line}", cure)
+        return _failure("Numba", answer, "can't compile", UPGRADE)
     threads, cores = answer.values["threads"], answer.values["cores"]
     more = f" on {counted(cores, 'core')}, more than useful" if threads > cores else ""
     return Finding("Numba", True, f"compiles; threads: {threads}{more}")
@@ -199,11 +179,8 @@ def cache() -> Finding:
     if problem is not None:
         return Finding(name, False, *problem)
     answer = ask(_CACHE)
-    wrong = _wrong_setting(name, answer)
-    if wrong:
-        return wrong
     if not answer.values:
-        return Finding(name, False, f"can't be read: {answer.last_line}", "fix the failures above")
+        return _failure(name, answer, "can't be read", "fix the failures above")
     folder = answer.values["folder"]
     if not folder:
         text = "no writable folder: each process compiles again, for ten to thirty seconds"
@@ -249,13 +226,23 @@ def temporary() -> Finding:
 CHECKS = (packages, settings, pymeshlab, filters, compiler, cache, temporary)
 
 
-def _wrong_setting(name: str, answer: Answer) -> Finding | None:
-    """The finding if a process ended because one of Numba's variables is wrong."""
+def _failure(name: str, answer: Answer, text: str, cure: str) -> Finding:
+    """The finding for a process that failed; a wrong variable or a missing library has its cure."""
     _, found, message = answer.printed.rpartition(f"{machine.SettingError.__name__}: ")
-    if not found or answer.values:
-        return None
-    text, _, cure = message.splitlines()[0].partition(machine.MEND)
-    return Finding(name, False, text, cure)
+    if found:
+        text, _, cure = message.splitlines()[0].partition(machine.MEND)
+        return Finding(name, False, text, cure)
+    libraries = machine.broken_libraries(answer.printed)
+    if libraries:
+        text = f"{text}: {', '.join(libraries)} is missing or broken"
+        return Finding(name, False, text, _install_libraries())
+    return Finding(name, False, f"{text}: {answer.last_line}", cure)
+
+
+def _install_libraries() -> str:
+    """The command for this machine, or all of them."""
+    here = [command for program, command in INSTALLERS.items() if shutil.which(program)]
+    return here[0] if here else " or ".join(INSTALLERS.values())
 
 
 # --- questions to other processes --------------------------------------------------------------

@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import re
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import Any
 
 import click
 
-from .errors import WrongUse
+from ..options import FILTER, OPTIONS, Option
+from .errors import WrongUse, reason
 from .formats import MANNERS, PARTS
 from .paths import Output, is_script
 
@@ -53,6 +54,55 @@ def mask_option(**more: Any) -> Callable[..., Any]:
         "that PyMeshLab saves.",
         **more,
     )
+
+
+def flip_options(leave_out: Collection[str] = ()) -> Callable[..., Any]:
+    """An option for each parameter of the flip filter, in their order."""
+
+    def decorated(command: Callable[..., Any]) -> Callable[..., Any]:
+        for option in reversed(OPTIONS):
+            if option.name not in leave_out:
+                command = _click_option(option)(command)
+        return command
+
+    return decorated
+
+
+def _click_option(option: Option) -> Callable[..., Any]:
+    """An option without a default of its own: the filter knows what is best for the mesh."""
+    name = f"--{option.name}"
+    if option.type is bool:
+        return click.option(f"{name}/--no-{option.name}", default=None, help=_help(option))
+    type_: Any = click.Choice(option.choices) if option.is_choice else option.type
+    return click.option(name, type=type_, help=_help(option))
+
+
+def _help(option: Option) -> str:
+    if option.default is None:
+        return option.help
+    value = option.default
+    if option.type is bool:
+        value = option.name if value else f"no-{option.name}"
+    elif option.type is float:
+        value = f"{value:g}"
+    return f"{option.help}  [default: {value}]"
+
+
+def check_flip_options(given: dict[str, Any]) -> None:
+    """Raise `WrongUse` for the first option that the filter can't take, each checked by itself."""
+    from ..meshset.filters import BY_NAME
+    from ..meshset.native import ERRORS
+
+    for parameter in BY_NAME[FILTER].parameters:
+        if parameter.name in given:
+            try:
+                value = parameter.read(given[parameter.name])
+                if parameter.check is not None:
+                    parameter.check(value)
+            except ERRORS as error:
+                raise WrongUse(f"--{parameter.name}: {reason(error)}") from error
+            except ValueError as error:
+                raise WrongUse(f"--{parameter.name}: {error}") from error
 
 
 def is_part(word: str) -> bool:

@@ -5,20 +5,19 @@ from __future__ import annotations
 import json
 import math
 import threading
-from collections.abc import Sequence
-from functools import cache, partial
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
 from .. import numba_settings
-from ..options import ALLOWLOSS, ENERGY, SEARCH, SELECTION
+from ..options import ALLOWLOSS, ENERGY, SEARCH, SELECTION, Option
 from . import compare_row, progress
-from .arguments import json_option
+from .arguments import check_flip_options, flip_options, json_option
 from .compare_row import Comparison, Outcome, check_reference
 from .errors import WrongUse, debug_option, is_debug
-from .flip import check_options, filter_options
 from .paths import only_input
 from .text import for_json, table
 
@@ -70,32 +69,13 @@ REFERENCE_LEGEND = (
 )
 
 
-class CompareCommand(click.Command):
-    """A command with the flip filter's parameters as options, for all rows with that filter."""
-
-    def get_params(self, ctx: click.Context) -> list[click.Parameter]:
-        """The command's own parameters, and the filter's before its options."""
-        own = super().get_params(ctx)
-        arguments = [p for p in own if isinstance(p, click.Argument)]
-        options = [p for p in own if p not in arguments]
-        return [*arguments, *_row_options(), *_shared_options(), *options]
-
-
-@cache
-def _row_options() -> tuple[click.Option, ...]:
-    return tuple(
-        click.Option(
-            [f"--{option.name}"],
-            multiple=True,
-            type=click.Choice(option.choices),
-            help=f"Only rows of this {option.name}; can be given several times.",
-        )
-        for option in _ROWS
+def _row_option(option: Option) -> Callable[..., Any]:
+    return click.option(
+        f"--{option.name}",
+        multiple=True,
+        type=click.Choice(option.choices),
+        help=f"Only rows of this {option.name}; can be given several times.",
     )
-
-
-def _shared_options() -> list[click.Option]:
-    return [option for option in filter_options() if option.name not in _NOT_SHARED]
 
 
 def _time_limit(_: click.Context, __: click.Parameter, seconds: float) -> float:
@@ -107,11 +87,13 @@ def _time_limit(_: click.Context, __: click.Parameter, seconds: float) -> float:
 
 @click.command(
     "compare",
-    cls=CompareCommand,
     short_help="Compare energies, searches and MeshLab's flips.",
     epilog=EXAMPLES,
 )
 @click.argument("source", metavar="IN")
+@_row_option(SEARCH)
+@_row_option(ENERGY)
+@flip_options(leave_out=_NOT_SHARED)
 @click.option(
     "--reference",
     metavar="SURFACE",
@@ -172,7 +154,7 @@ def _rows(given: dict[str, Any], peers: bool) -> list[Row]:
         dict.fromkeys(given.pop(option.name) or option.choices) for option in _ROWS
     )
     shared = {name: value for name, value in given.items() if value is not None}
-    check_options(shared)
+    check_flip_options(shared)
     return [INITIAL, *own_rows(searches, energies, shared), *(PEERS if peers else ())]
 
 

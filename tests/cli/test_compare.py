@@ -143,8 +143,6 @@ def test_reference_adds_two_columns(cube, rows):
     ],
 )
 def test_rows_can_be_chosen(cube, rows, monkeypatch, arguments, wanted):
-    # The options are made of the real choices, once.
-    compare._row_options()
     fewer = SEARCH._replace(choices=("greedy",)), ENERGY._replace(choices=ENERGY.choices[:2])
     monkeypatch.setattr(compare, "_ROWS", fewer)
     lines = shown(call("compare", cube, "--no-peers", *arguments))[2:-1]

@@ -86,6 +86,7 @@ def test_filter_is_warmed_up_before_timing(task, monkeypatch):
     assert events == [compare_row.WARMING, warmed, compare_row.RUNNING, compare_row.MEASURING]
 
 
+@pytest.mark.slow
 def test_output_of_a_filter_is_no_answer(task, monkeypatch):
     noisy = (
         "import os, sys; sys.path[:] = {path!r}; from {module} import main, Outcome\n"
@@ -114,6 +115,7 @@ def test_hanging_load_is_killed_with_its_process(monkeypatch):
     assert 0 in children
 
 
+@pytest.mark.slow
 def test_files_of_the_working_folder_do_not_hide_modules(task):
     Path("json.py").write_text("raise ImportError('a file of the user')")
     Path("click.py").write_text("raise ImportError('a file of the user')")

@@ -84,6 +84,7 @@ def without_gl(tmp_path, monkeypatch):
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
 
 
+@pytest.mark.slow
 def test_missing_library_is_named(without_gl, on_debian):
     finding = doctor.pymeshlab()
     assert finding == Finding(

@@ -145,6 +145,7 @@ def test_signal_leaves_no_files(run, number, code, said):
 
 
 @POSIX
+@pytest.mark.slow
 def test_kill_leaves_no_file_with_the_output_name(run):
     code, _ = stopped_by(signal.SIGKILL, *run)
     assert code == -signal.SIGKILL
@@ -306,6 +307,7 @@ def test_log_on_a_closed_output(script, cube):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a shell of POSIX")
+@pytest.mark.slow
 def test_new_file_does_not_replace_a_closed_stream():
     code = (
         "import os, sys; from meshlab_willmore.cli import errors; errors.open_closed_streams(); "

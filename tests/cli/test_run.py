@@ -384,6 +384,7 @@ def test_settings_replace_values_of_the_script(script, cube):
     assert "  returned: flips=3, " in result.stdout
 
 
+@pytest.mark.slow
 def test_native_filters_print_nothing_into_the_output(cube):
     # This one writes to the C++ streams, whatever the verbosity.
     script = script_file(("generate_alpha_shape", {}))

@@ -1,7 +1,7 @@
-"""Everything compiled ahead: each energy by each search, every guard and measure, on a tiny mesh.
+"""Compilation of everything in advance: each energy with each search, every guard and measure.
 
-What there is to compile is not listed here, but asked of the dictionaries that the public functions
-choose from, and it is compiled by calling these functions. So a new energy or search is included.
+Kernels are compiled by calling the public functions on a tiny mesh, with all choices of their
+options. So a new energy or search is included.
 """
 
 from __future__ import annotations
@@ -9,18 +9,17 @@ from __future__ import annotations
 import itertools
 import multiprocessing
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import config
 from numpy.typing import NDArray
 
 from . import measure
 from .mesh import compiling
-from .mesh.jit import cache_folder
+from .mesh.jit import cache_folder, is_off
 from .mesh.kernel_cache import write_errors
 from .mesh.normals import vertex_normals
 from .optimize import optimize_flips
@@ -53,17 +52,33 @@ class Warmed(NamedTuple):
 
 def steps() -> list[Step]:
     """All that a filter or a function of this package may compile; the default comes first."""
-    return [
-        *(Step(name, partial(optimize_flips, *_patch(), **given)) for name, given in _flips()),
-        *(
-            Step(name, partial(optimize_flips, *_slope(), energy="willmore", **given))
-            for name, given in (
-                ("waves of flips", {}),
-                ("waves of flips, self-intersections", {"checkintersections": True}),
-            )
+    patch, slope = _patch(), _slope()
+    # One sweep compiles as much as many.
+    flips = partial(optimize_flips, *patch, sweeps=1)
+    waves = partial(optimize_flips, *slope, energy="willmore")
+    chosen: dict[str, Callable[..., object]] = {
+        f"{search}, {energy}": partial(flips, search=search, energy=energy)
+        for search, energy in itertools.product(SEARCH.choices, ENERGY.choices)
+    }
+    for search, place in itertools.product(SEARCH.choices, (*VIRTUALPOINT.choices, _PLACE)):
+        chosen[f"{search}, virtual points {place}"] = partial(
+            flips, search=search, energy=VIRTUAL, virtualpoint=place
+        )
+    chosen["waves of flips"] = waves
+    guarded = {
+        f"{name}{_GUARDED}": partial(run, checkintersections=True) for name, run in chosen.items()
+    }
+    vertices, faces = patch
+    others = {
+        "features, selections, locked edges, textures": partial(
+            flips,
+            featuredeg=_FEATURE,
+            selected_faces=np.ones(len(faces), bool),
+            locked_edges=faces[:1, :2],
+            wedge_uv=vertices[faces, :2],
         ),
-        *(
-            Step(f"{function.__name__.replace('_', ' ')}", partial(function, *_patch()))
+        **{
+            function.__name__.replace("_", " "): partial(function, *patch)
             for function in (
                 measure.measures,
                 measure.willmore_energy,
@@ -72,37 +87,10 @@ def steps() -> list[Step]:
                 measure.triangle_shapes,
                 measure.self_intersections,
             )
-        ),
-        Step("normals", lambda: vertex_normals(*_patch(), np.zeros((_ROWS**2, 3)))),
-    ]
-
-
-def _flips() -> Iterator[tuple[str, dict[str, Any]]]:
-    """Name and options of each kind of flips."""
-    # One sweep compiles as much as many.
-    few: dict[str, Any] = {"sweeps": 1}
-    places: list[str | float] = [*VIRTUALPOINT.choices, _PLACE]
-    for search, energy in itertools.product(SEARCH.choices, ENERGY.choices):
-        given = {**few, "search": search, "energy": energy}
-        yield f"{search}, {energy}", given
-        yield f"{search}, {energy}{_GUARDED}", {**given, "checkintersections": True}
-    for search, place in itertools.product(SEARCH.choices, places):
-        given = {**few, "search": search, "energy": VIRTUAL, "virtualpoint": place}
-        yield f"{search}, virtual points {place}", given
-        yield (
-            f"{search}, virtual points {place}{_GUARDED}",
-            {**given, "checkintersections": True},
-        )
-    vertices, faces = _patch()
-    yield (
-        "features, selections, locked edges, textures",
-        {
-            "featuredeg": _FEATURE,
-            "selected_faces": np.ones(len(faces), bool),
-            "locked_edges": faces[:1, :2],
-            "wedge_uv": vertices[faces, :2],
         },
-    )
+        "normals": partial(vertex_normals, *patch, np.zeros((_ROWS**2, 3))),
+    }
+    return [Step(name, run) for name, run in (chosen | guarded | others).items()]
 
 
 def _grid(rows: int) -> tuple[Any, Any, NDArray[np.int32]]:
@@ -140,12 +128,12 @@ def warm_up(
     Parameters
     ----------
     say : callable
-        Gets a line for each step that took its time.
+        Gets a line for each step that compiled something.
     processes : int
         In how many processes; with 1, or where the system has no locks for several (a container
         without shared memory), in this one.
     end : callable
-        Gets the name of each of the `steps` when it is through.
+        Gets the name of each of the `steps` when it is done.
 
     Raises
     ------
@@ -158,7 +146,8 @@ def warm_up(
     start = time.perf_counter()
     found: list[compiling.Compiled] = []
     pool = _pool(processes)
-    for name, compiled in _run(steps()) if pool is None else _in_processes(pool):
+    one_by_one = itertools.chain.from_iterable(_run([step]) for step in steps())
+    for name, compiled in _in_processes(pool) if pool else one_by_one:
         if compiled:
             say(f"{name}: compiled in {sum(c.seconds for c in compiled):.1f} s")
         found += compiled
@@ -170,8 +159,9 @@ def warm_up(
 _Outcome = tuple[str, list[compiling.Compiled]]
 
 
-def _run(chosen: Iterable[Step]) -> Iterator[_Outcome]:
-    """Run steps in this process."""
+def _run(chosen: list[Step]) -> list[_Outcome]:
+    """Run steps in this process; return their names and what each has compiled."""
+    outcomes = []
     with compiling.announced("", silent=True):
         for step in chosen:
             with compiling.counted() as compiled:
@@ -179,7 +169,8 @@ def _run(chosen: Iterable[Step]) -> Iterator[_Outcome]:
             if write_errors:
                 error = write_errors.pop()
                 raise OSError(f"Numba's cache can't be written in {_folder()}: {error}")
-            yield step.name, compiled
+            outcomes.append((step.name, compiled))
+    return outcomes
 
 
 def _pool(processes: int) -> ProcessPoolExecutor | None:
@@ -193,9 +184,9 @@ def _pool(processes: int) -> ProcessPoolExecutor | None:
 
 
 def _in_processes(pool: ProcessPoolExecutor) -> Iterator[_Outcome]:
-    """Run all steps in processes of their own, as they come."""
+    """Run all steps in several processes; give the outcomes as they arrive."""
     with pool:
-        jobs = [pool.submit(_run_named, names) for names in _groups()]
+        jobs = [pool.submit(_run, job) for job in _jobs()]
         try:
             for job in as_completed(jobs):
                 yield from job.result()
@@ -203,16 +194,21 @@ def _in_processes(pool: ProcessPoolExecutor) -> Iterator[_Outcome]:
             pool.shutdown(wait=False, cancel_futures=True)
 
 
-def _run_named(names: list[str]) -> list[_Outcome]:
-    return list(_run(step for step in steps() if step.name in names))
+def _jobs() -> list[list[Step]]:
+    """The steps, those together that compile the same kernels.
 
-
-def _groups() -> list[list[str]]:
-    """Names of the steps, those together that compile the same kernels."""
-    groups: dict[str, list[str]] = {}
+    Next to each other are jobs of other searches and other energies: processes that run them at the
+    same time compile little that is the same.
+    """
+    jobs: dict[str, list[Step]] = {}
     for step in steps():
-        groups.setdefault(step.name.removesuffix(_GUARDED), []).append(step.name)
-    return list(groups.values())
+        jobs.setdefault(step.name.removesuffix(_GUARDED), []).append(step)
+    found = list(jobs.values())
+    energies = len(ENERGY.choices)
+    of_searches = energies * len(SEARCH.choices)
+    # Diagonals of the table of searches and energies.
+    order = sorted(range(of_searches), key=lambda i: ((i % energies - i // energies) % energies, i))
+    return [found[i] for i in (*order, *range(of_searches, len(found)))]
 
 
 def missing() -> list[str]:
@@ -230,7 +226,7 @@ def _would_compile(step: Step) -> bool:
 
 
 def _folder() -> str:
-    if config.DISABLE_JIT:  # type: ignore[attr-defined]
+    if is_off():
         raise RuntimeError("NUMBA_DISABLE_JIT is set: the compiler is switched off")
     folder = cache_folder()
     if not folder:

@@ -5,6 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numba
 import pytest
 from numba import njit
 
@@ -87,7 +88,7 @@ def test_without_locks_for_processes_one_does(monkeypatch):
 
     monkeypatch.setattr(warmup, "ProcessPoolExecutor", denied)
     monkeypatch.setattr(warmup, "cache_folder", lambda: "/the/folder")
-    monkeypatch.setattr(warmup.config, "DISABLE_JIT", 0)
+    monkeypatch.setattr(numba.config, "DISABLE_JIT", 0)
     ran = []
     monkeypatch.setattr(warmup, "steps", lambda: [warmup.Step("one", lambda: ran.append(1))])
     assert warmup.warm_up(print, 2).compiled == 0
@@ -134,10 +135,10 @@ def test_what_would_be_compiled_is_named(monkeypatch):
 
 def test_without_a_compiler_or_a_cache_there_is_an_error(monkeypatch):
     monkeypatch.setattr(warmup, "steps", list)
-    monkeypatch.setattr(warmup.config, "DISABLE_JIT", 1)
+    monkeypatch.setattr(numba.config, "DISABLE_JIT", 1)
     with pytest.raises(RuntimeError, match="NUMBA_DISABLE_JIT is set"):
         warmup.warm_up(print)
-    monkeypatch.setattr(warmup.config, "DISABLE_JIT", 0)
+    monkeypatch.setattr(numba.config, "DISABLE_JIT", 0)
     monkeypatch.setattr(warmup, "cache_folder", lambda: None)
     with pytest.raises(RuntimeError, match="set NUMBA_CACHE_DIR"):
         warmup.warm_up(print)
@@ -147,7 +148,7 @@ def test_the_error_on_a_full_disk_names_the_folder(monkeypatch):
     def fail():
         warmup.write_errors.append(OSError(28, "No space left on device"))
 
-    monkeypatch.setattr(warmup.config, "DISABLE_JIT", 0)
+    monkeypatch.setattr(numba.config, "DISABLE_JIT", 0)
     monkeypatch.setattr(warmup, "cache_folder", lambda: "/the/folder")
     monkeypatch.setattr(warmup, "steps", lambda: [warmup.Step("one", fail)])
     with pytest.raises(OSError, match="can't be written in /the/folder: .*No space left"):

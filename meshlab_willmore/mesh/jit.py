@@ -17,7 +17,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numba import njit, types
+from numba import config, njit, types
 from numba.core.registry import CPUDispatcher
 
 from . import compiling  # noqa: F401 - it announces what is compiled
@@ -122,6 +122,11 @@ def at(index):
     it is takes time at each access, and keeps loops from becoming vector instructions.
     """
     return np.uint64(index)
+
+
+def is_off():
+    """Whether the compiler is switched off."""
+    return bool(config.DISABLE_JIT)
 
 
 def cache_folder():

@@ -181,9 +181,9 @@ def triangle_shapes(vertices, faces):
 
 
 def self_intersections(vertices, faces):
-    """Return which faces cut another one.
+    """Return which faces intersect another one.
 
-    Two faces cut each other if they share a point that their common vertices do not account for:
+    Two faces intersect if they share a point that their common vertices do not account for:
     any point if they have none in common, even if they only touch; any besides the common vertex;
     any besides the common edge, which is the case where one is folded back onto the other. Faces
     with the same three vertices do. This is decided exactly, and holds for faces without area too.
@@ -302,7 +302,7 @@ def _vertex_energy(mesh):
 
 @jit
 def _sums_at_ends(mesh, beta):
-    """Sum the angles of the edges, which stand at their lower twins, at their end vertices."""
+    """Sum the angles of the edges, given at their lower twins, at their end vertices."""
     sums = np.zeros(len(mesh.vertices))
     for h in range(len(mesh.origin)):
         t = mesh.twin[at(h)]

@@ -39,7 +39,7 @@ def lock_creases(mesh, limit):
     """Lock, in place, every edge whose dihedral angle is `limit` (radians) or more.
 
     Both the limit and flatness are met up to `CREASE_SLACK`, so that rounding decides nothing: the
-    edges of a cylinder with twelve sides are creases at 30 degrees wherever it stands (to keep an
+    edges of a cylinder with twelve sides are creases at 30 degrees in any position (to keep an
     edge too many harms no shape, to lose one does), and edges between coplanar faces are none even
     at 0 degrees. Degenerate faces have no creases.
     """

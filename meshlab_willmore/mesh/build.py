@@ -23,7 +23,7 @@ def sort_by_vertex(order, vertex, starts):
     vertex : array of int
         Vertices in 0 .. n - 1.
     starts : (n + 2,) int64
-        Overwritten: the entries of v stand from ``starts[v]`` up to ``starts[v + 1]``.
+        Overwritten: the entries of v are those from ``starts[v]`` up to ``starts[v + 1]``.
     """
     starts[:] = 0
     for h in order:
@@ -84,7 +84,7 @@ class _Stars(NamedTuple):
     origin, twin : (3 m,) int32
         As of a Mesh; the twins are to be found, and `NONE` before.
     starts : (n + 2,) int64
-        Those with the lower end v stand from ``starts[v]`` up to ``starts[v + 1]``.
+        Those with the lower end v are from ``starts[v]`` up to ``starts[v + 1]``.
     high, half_edge : (3 m,) int32
         Their higher ends, and the half-edges themselves.
     """

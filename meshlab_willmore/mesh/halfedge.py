@@ -26,10 +26,10 @@ from .jit import at, inlined, inner, jit
 from .points import Point, norm, point, subtract
 
 NONE = -1
-# To walk round a vertex with so many edges costs next to nothing.
+# Steps round a vertex that cost next to nothing.
 FEW_EDGES = 16
-# Whether a vertex is next to another one.
-IS_NOT_THERE, IS_THERE, IN_DOUBT = range(3)
+# Whether two vertices are joined by an edge.
+NOT_JOINED, JOINED, UNDECIDED = range(3)
 
 
 class Mesh(NamedTuple):
@@ -48,7 +48,7 @@ class Mesh(NamedTuple):
         Edges that must not be flipped; twins agree.
     corner : (3 m,) int32
         A corner ``3 f + c`` of the *input* faces at the same vertex and on the same side of all
-        locked edges: it tells which wedge data a corner inherits.
+        locked edges: the corner that a corner inherits its wedge data from.
     several_fans : (n,) bool
         Vertices whose faces do not form one fan around them. Flips never change that.
     uv : (3 m, 2 c) float64
@@ -132,32 +132,32 @@ def next_in_fan(mesh, h):
 
 @inlined
 def _has_corner(mesh, h, v):
-    """Tell whether `v` is one of the two vertices opposite to the origin of `h` in its face."""
+    """Whether `v` is one of the two vertices opposite to the origin of `h` in its face."""
     return mesh.origin[at(following(h))] == v or mesh.origin[at(previous(h))] == v
 
 
 @inner
-def _look_round(twin, origin, a, v):
-    """Tell whether an edge joins `v` and the origin of `a`, which must have a single fan.
+def _search_fan(twin, origin, a, v):
+    """Return whether an edge joins `v` and the origin of `a`, which must have a single fan.
 
-    `IN_DOUBT` if the fan is open or has more than `FEW_EDGES` edges. It takes arrays, not the mesh:
-    the tuple would take longer to hand over than the walk.
+    `UNDECIDED` if the fan is open or has more than `FEW_EDGES` edges. It takes two arrays, as it
+    would take longer to pass the mesh than to walk.
     """
     x = a
     for _ in range(FEW_EDGES):
         if origin[at(following(x))] == v:
-            return IS_THERE
+            return JOINED
         before = twin[at(previous(x))]
         if before == NONE:
             break
         x = np.int64(before)
         if x == a:
-            return IS_NOT_THERE
-    return IN_DOUBT
+            return NOT_JOINED
+    return UNDECIDED
 
 
 @inner
-def _look_round_both(mesh, a, b):
+def _search_both_fans(mesh, a, b):
     u, v = mesh.origin[at(a)], mesh.origin[at(b)]
     if mesh.several_fans[at(u)] and mesh.several_fans[at(v)]:
         return True
@@ -172,24 +172,24 @@ def _look_round_both(mesh, a, b):
 
 @inlined
 def are_joined(mesh, a, b):
-    """Tell whether an edge joins the origins of the half-edges `a` and `b`; also if in doubt.
+    """Whether an edge joins the origins of the half-edges `a` and `b`; also if in doubt.
 
     That is exact: where the faces at a vertex form a single fan, each edge of the vertex belongs to
-    a face of that fan. If both vertices have several fans, the answer is yes. Nearly always a few
-    steps round the first vertex tell, if it is inside the surface. Otherwise the fans of both are
-    walked in step until one is through, so that a vertex with a great many edges does no harm.
+    a face of that fan. If both vertices have several fans, the answer is yes. If the first vertex
+    is inside the surface, a few steps round it nearly always suffice. Otherwise the fans of both
+    are walked in step until one is complete, so that a vertex with a great many edges does no harm.
     """
-    found = IN_DOUBT
+    found = UNDECIDED
     if not mesh.several_fans[at(mesh.origin[at(a)])]:
-        found = _look_round(mesh.twin, mesh.origin, np.int64(a), mesh.origin[at(b)])
-    if found == IN_DOUBT:
-        return _look_round_both(mesh, a, b)
-    return found == IS_THERE
+        found = _search_fan(mesh.twin, mesh.origin, np.int64(a), mesh.origin[at(b)])
+    if found == UNDECIDED:
+        return _search_both_fans(mesh, a, b)
+    return found == JOINED
 
 
 @inner
 def is_free(mesh, h):
-    """Tell whether `h` has a twin, is not locked, and leaves i and j enough edges when flipped.
+    """Whether `h` has a twin, is not locked, and leaves i and j enough edges when flipped.
 
     A fan must not end with fewer than three edges. Only the two faces at `h` are looked at.
     """
@@ -204,14 +204,14 @@ def is_free(mesh, h):
 
 @inlined
 def makes_new_edge(mesh, h):
-    """Tell whether k and l, the ends of `h` if it were flipped, differ and are not joined yet."""
+    """Whether k and l, the ends of `h` if it were flipped, differ and are not joined yet."""
     t = mesh.twin[at(h)]
     return apex(mesh, h) != apex(mesh, t) and not are_joined(mesh, previous(h), previous(t))
 
 
 @inner
 def can_flip(mesh, h):
-    """Tell whether the connectivity and the locks allow to flip `h`.
+    """Whether the connectivity and the locks allow to flip `h`.
 
     Refused are edges without twin, locked edges, flips to an edge that exists anywhere in the mesh,
     and flips after which the fan at i or j has fewer than three edges.

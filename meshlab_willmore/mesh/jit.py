@@ -1,15 +1,15 @@
-"""The spellings of Numba's decorator that this package uses.
+"""The decorators that compile this package's kernels with Numba.
 
 ``jit`` is for kernels that take arrays and numbers, and that Python code calls: compiled once, kept
 on disk. ``inner`` is for those that only other kernels call. ``generic`` is for kernels that take
 another kernel as a parameter. Numba can never find these in its disk cache and would write a new
-file in every process, so they are not cached; a thin ``jit`` entry that fixes the parameter is (see
-`meshlab_willmore.search.entries`). ``inlined`` is for the arithmetic in loops that the compiler
-should turn into vector instructions, which a call in the loop prevents, and for what takes a mesh
-or another tuple of many arrays and is asked for each edge: a call hands over array by array.
+file in every process, so they are not cached; a ``jit`` kernel that fixes the parameter is.
+``inlined`` is for the arithmetic in loops that the compiler should turn into vector instructions,
+which a call in the loop prevents, and for what takes a mesh or another tuple of many arrays for
+each edge: a call passes each array.
 
-All but the first are compiled without what unpacks the arguments of a call from Python. That would
-take longer than most kernels: it is done for each array of all the tuples that they take.
+All but the first are compiled without the code that unpacks the arguments of a call from Python. It
+would take longer to compile than most kernels: it has a part for each array of their tuples.
 """
 
 import contextlib
@@ -88,9 +88,8 @@ def _kept(compiled, function):
 def jit(function):
     """Return `function` compiled, with a cache on disk where one can be written.
 
-    Where that is, and when it is compiled anew, `meshlab_willmore.mesh.kernel_cache` tells. Without
-    a folder that can be written (a read-only installation and no home) each process compiles for
-    itself.
+    For the folder and its key see `meshlab_willmore.mesh.kernel_cache`. Without a folder that can
+    be written (a read-only installation and no home) each process compiles for itself.
     """
     return _kept(_compiled, function)
 
@@ -98,8 +97,8 @@ def jit(function):
 def inner(function):
     """Return `function` compiled for other kernels, with a cache on disk as `jit` has one.
 
-    In the cache they are not told apart: what `jit` finds as `inner` left it crashes when Python
-    calls it. So no function can be compiled in both ways.
+    No function can be compiled in both ways: the cache does not distinguish them, and what `inner`
+    left there crashes when Python calls it.
     """
     return _kept(_compiled_inside, function)
 
@@ -118,8 +117,8 @@ def inlined(function):
 def at(index):
     """Return `index`, which must not be negative, as an unsigned number.
 
-    Numba counts a signed index that is negative from the end, as Python does. To find out whether
-    it is takes time at each access, and keeps loops from becoming vector instructions.
+    Numba counts a negative index from the end, as Python does. The test for that takes time at each
+    access, and keeps loops from becoming vector instructions.
     """
     return np.uint64(index)
 

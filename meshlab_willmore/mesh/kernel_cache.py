@@ -1,10 +1,10 @@
-"""Where compiled kernels are kept on disk, and when they are compiled anew.
+"""The disk cache of compiled kernels.
 
 Numba keys its cache by the source file of a kernel alone, so it does not notice an edited helper in
 another file, nor flags such as ``NUMBA_BOUNDSCHECK``; and it fails on a file that was cut short.
 Here the key is a hash over the sources of all kernels and over all that changes the code, and each
-file ends in a checksum. What is damaged is compiled anew and replaced; what cannot be written costs
-each process the time to compile, and nothing else.
+file ends in a checksum. Damaged files are compiled again and replaced; a folder that cannot be
+written costs each process the time to compile, and nothing else.
 """
 
 import functools

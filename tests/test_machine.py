@@ -3,7 +3,7 @@
 from meshlab_willmore.machine import MachineError, SettingError, fault_of
 
 
-def test_the_machines_fault_is_found_behind_others():
+def test_a_fault_of_the_machine_is_found_among_causes():
     fault = SettingError("why")
     error = ValueError("a.ply: it failed")
     error.__cause__ = RuntimeError("it failed")

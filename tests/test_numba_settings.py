@@ -73,7 +73,7 @@ def test_several_wrong_variables_are_all_named(monkeypatch):
     assert both.endswith("; mend it with: unset NUMBA_NUM_THREADS; unset NUMBA_OPT")
 
 
-def test_a_folder_for_the_cache_that_is_of_no_use(monkeypatch, tmp_path):
+def test_a_cache_folder_that_cannot_be_used_is_named(monkeypatch, tmp_path):
     file = tmp_path / "file"
     file.touch()
     assert numba_settings.cache_problem() is None

@@ -11,7 +11,7 @@ from meshlab_willmore.machine import RoomError
 from meshlab_willmore.temporary_files import temporary_folder
 
 
-def test_a_temporary_folder_is_there_and_then_gone():
+def test_a_temporary_folder_is_removed_in_the_end():
     with temporary_folder(1) as folder:
         (folder / "file").write_text("text")
     assert not folder.exists()
@@ -20,7 +20,7 @@ def test_a_temporary_folder_is_there_and_then_gone():
     assert not folder.exists()
 
 
-def test_too_little_room_is_told_before_anything_is_written():
+def test_too_little_room_is_an_error_before_anything_is_written():
     with pytest.raises(RoomError) as caught, temporary_folder(2**62):
         raise AssertionError("something was begun")
     place = Path(tempfile.gettempdir())
@@ -30,8 +30,8 @@ def test_too_little_room_is_told_before_anything_is_written():
     assert str(caught.value).endswith(" are free; mend it with: export TMPDIR=/a/folder/with/room")
 
 
-def test_whoever_runs_out_of_room_the_folder_is_named(monkeypatch, tmp_path):
-    """A native writer tells nothing: what reads its file finds it cut short."""
+def test_the_folder_is_named_when_any_writer_runs_out_of_room(monkeypatch, tmp_path):
+    """A native writer reports nothing: the reader of its file finds it cut short."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
 
     def refuse(**_given):
@@ -63,7 +63,7 @@ def test_no_place_at_all_for_temporary_files(monkeypatch):
     assert "; mend it with: export TMPDIR=" in str(caught.value)
 
 
-def test_the_inner_of_two_folders_tells_how_much_is_needed(monkeypatch):
+def test_the_inner_of_two_folders_names_how_much_is_needed(monkeypatch):
     monkeypatch.setattr(temporary_files, "_is_full", lambda folder: True)
 
     def step():

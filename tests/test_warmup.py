@@ -1,4 +1,4 @@
-"""Everything compiled ahead: nothing is left out."""
+"""Warmup compiles everything in advance."""
 
 import inspect
 import subprocess

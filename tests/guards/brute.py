@@ -1,4 +1,4 @@
-"""The guard against self-intersections without an index: every face is tried."""
+"""The intersection guard without a BVH: every face is tested."""
 
 from meshlab_willmore.guards.intersections import (
     face_of,
@@ -20,7 +20,7 @@ def copy_of(mesh):
 
 
 def are_refused(vertices, corners, f, g, area_scale):
-    """Whether the faces f and g of `corners` (m, 3) cut each other, or MeshLab may say so."""
+    """Whether the faces f and g of `corners` (m, 3) intersect, or MeshLab may say so."""
     f, g = min(f, g), max(f, g)
     one, other = (
         face_of(vertices, *corners[f]),
@@ -35,7 +35,7 @@ def box(points):
 
 
 def blockers(mesh, h, area_scale=1.0):
-    """All faces that the new faces cut; the face of `h` is among them if these cut each other."""
+    """All faces that the new faces intersect; the face of `h` if these intersect each other."""
     flipped = copy_of(mesh)
     flip(flipped, h)
     corners = faces_of(flipped)

@@ -1,4 +1,4 @@
-"""The guard against self-intersections and its index, against all pairs of faces."""
+"""The intersection guard and its BVH, against all pairs of faces."""
 
 import numpy as np
 import pytest
@@ -104,7 +104,7 @@ def test_the_bvh_finds_what_all_pairs_find(name):
 @pytest.mark.heavy
 @pytest.mark.parametrize("name", MESHES)
 @pytest.mark.slow
-def test_cutting_faces_are_those_of_clipping(name):
+def test_intersecting_faces_are_those_of_clipping(name):
     vertices, faces = MESHES[name]()
     mesh = build(np.asarray(vertices, float), faces)
     for flips in (0, 100):
@@ -115,7 +115,7 @@ def test_cutting_faces_are_those_of_clipping(name):
 
 
 @pytest.mark.parametrize("name", MESHES)
-def test_boxes_follow_the_flips(name):
+def test_boxes_are_refitted(name):
     mesh, _ = unit_mesh(*MESHES[name]())
     bvh = build_bvh(mesh)
     shuffle(mesh, bvh, 200, np.random.default_rng(2))
@@ -125,7 +125,7 @@ def test_boxes_follow_the_flips(name):
     np.testing.assert_array_equal(bvh.box[0, 3:], corners.max(axis=(0, 1)))
 
 
-def test_boxes_follow_flips_and_the_way_back():
+def test_boxes_are_refitted_there_and_back():
     mesh, _ = unit_mesh(*meshes.bumpy_sphere(50))
     bvh = build_bvh(mesh)
     before, changes = bvh.box.copy(), 0
@@ -143,7 +143,7 @@ def test_boxes_follow_flips_and_the_way_back():
 
 
 @pytest.mark.parametrize("name", MESHES)
-def test_boxes_that_grow_hold_what_is_below_and_what_was(name):
+def test_expanded_boxes_hold_what_is_below_and_what_was(name):
     mesh, _ = unit_mesh(*MESHES[name]())
     bvh = build_bvh(mesh)
     lowest, highest = bvh.box[:, :3].copy(), bvh.box[:, 3:].copy()
@@ -188,7 +188,7 @@ def test_among_faces_that_changed_in_a_round_the_bvh_finds_what_all_pairs_find(n
 @pytest.mark.heavy
 @pytest.mark.parametrize("name", MESHES)
 @pytest.mark.slow
-def test_rivals_are_those_that_all_pairs_find(name):
+def test_flips_of_a_round_that_intersect_are_those_that_all_pairs_find(name):
     """Flips of a round: none has a face of another one's, but their new faces may cut."""
     mesh, exponent = unit_mesh(*MESHES[name]())
     bvh = build_bvh(mesh, exponent)
@@ -230,7 +230,7 @@ def test_every_face_has_a_leaf_of_few(count):
     assert sum(map(len, seen)) == count
 
 
-def test_the_index_is_small_and_splits_by_place():
+def test_the_bvh_is_small_and_its_leaves_hold_neighbours():
     vertices, faces = meshes.torus(4000, 0.3, 1)
     mesh, _ = unit_mesh(vertices, faces)
     bvh = build_bvh(mesh)
@@ -305,7 +305,7 @@ def test_kernels_refuse_nothing_without_a_guard(kind):
     assert (mesh.origin != before).any()
 
 
-def test_an_active_space_stays_as_it_is_and_is_followed_in_kernels():
+def test_an_active_bvh_is_not_specialized_and_is_refitted_in_kernels():
     mesh, _ = unit_mesh(*meshes.bumpy_sphere(60))
     bvh = build_bvh(mesh)
     assert specialized(bvh) is bvh

@@ -1,4 +1,4 @@
-"""What MeshLab says of two faces is never missed, and mostly met."""
+"""Pairs of faces that MeshLab counts are always counted, and others seldom."""
 
 import itertools
 
@@ -65,7 +65,7 @@ def round_a_vertex(rng, gap, bend):
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3, 1e6])
 @pytest.mark.parametrize("bend", [0.0, 1e-12, 1e-6, 0.1])
 @pytest.mark.slow
-def test_what_is_seen_apart_neither_cuts_nor_counts(bend, scale):
+def test_faces_clearly_apart_neither_intersect_nor_count(bend, scale):
     rng = np.random.default_rng(2)
     corners = np.array([(0, 1, 2), (0, 3, 4)], np.int32)
     for gap in (-0.5, -1e-6, -1e-12, 0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 0.5):
@@ -82,7 +82,7 @@ def test_what_is_seen_apart_neither_cuts_nor_counts(bend, scale):
 
 @pytest.mark.parametrize("sharing", PATTERNS)
 @pytest.mark.parametrize("family", FAMILIES)
-def test_in_no_family_is_a_cut_seen_apart(family, sharing):
+def test_in_no_family_are_intersecting_faces_clearly_apart(family, sharing):
     rng = np.random.default_rng(3)
     corners = np.array(PATTERNS[sharing], np.int32)
     for _ in range(300):
@@ -107,7 +107,7 @@ def mirrored(rng):
 
 
 @pytest.mark.slow
-def test_what_only_rounding_brings_together_is_not_seen_apart():
+def test_faces_that_only_rounding_brings_together_are_not_clearly_apart():
     rng = np.random.default_rng(4)
     area_scale, by_rounding = 4.0**25, 0
     for _ in range(4000):
@@ -121,7 +121,7 @@ def test_what_only_rounding_brings_together_is_not_seen_apart():
 
 
 @pytest.mark.slow
-def test_nearly_all_neighbours_round_a_vertex_are_seen_apart():
+def test_nearly_all_neighbours_round_a_vertex_are_clearly_apart():
     vertices, corners = meshes.bumpy_sphere(300)
     scaled, exponent = to_unit_scale(vertices, corners)
     seen = []

@@ -1,4 +1,4 @@
-"""Which faces cut each other, against clipping in fractions."""
+"""Which faces intersect, against clipping in fractions."""
 
 import itertools
 
@@ -61,7 +61,7 @@ def both_ways(vertices, one, other):
 
 @pytest.mark.parametrize("sharing", PATTERNS)
 @pytest.mark.parametrize("family", FAMILIES)
-def test_cuts_are_those_of_clipping(family, sharing):
+def test_intersections_are_those_of_clipping(family, sharing):
     rng = np.random.default_rng(0)
     one, other = PATTERNS[sharing]
     seen = set()

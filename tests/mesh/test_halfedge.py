@@ -1,4 +1,4 @@
-"""The flip and the question before it."""
+"""The flip, and whether it is allowed."""
 
 import numpy as np
 import pytest
@@ -150,7 +150,7 @@ def test_can_flip_agrees_with_a_search_of_all_edges(mesh_index):
 
 @pytest.mark.parametrize("few", [halfedge.FEW_EDGES, 2])
 @pytest.mark.parametrize("mesh_index", range(len(MIXED)))
-def test_joined_is_what_an_edge_joins_or_what_is_in_doubt(mesh_index, few, monkeypatch):
+def test_vertices_are_joined_by_an_edge_or_if_in_doubt(mesh_index, few, monkeypatch):
     # Compiled kernels keep the number that they were compiled with.
     monkeypatch.setattr(halfedge, "FEW_EDGES", few)
     mesh = build(*MIXED[mesh_index])

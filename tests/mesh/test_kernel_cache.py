@@ -1,4 +1,4 @@
-"""Kernels on disk: what keys them, and what becomes of damaged files."""
+"""The disk cache of kernels: its key, and damaged files."""
 
 import ast
 import errno
@@ -54,7 +54,7 @@ def alter(path):
 @pytest.mark.heavy
 @pytest.mark.parametrize("harm", [cut, empty, alter])
 @pytest.mark.parametrize("suffix", ["nbi", "nbc"])
-def test_a_damaged_file_is_found_compiled_anew_and_replaced(folder, harm, suffix):
+def test_a_damaged_file_is_found_compiled_again_and_replaced(folder, harm, suffix):
     assert [misses(kernel()), misses(kernel())] == [1, 0]
     assert damaged_entries() == []
     (path,) = folder.rglob(f"*.{suffix}")

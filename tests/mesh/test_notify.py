@@ -1,4 +1,4 @@
-"""How far a search is, for whoever listens."""
+"""Reports of how far a search is."""
 
 import threading
 
@@ -10,7 +10,7 @@ from meshlab_willmore.options import SEARCH
 from tests import meshes
 
 
-def test_stages_stand_before_what_is_reported():
+def test_stages_come_before_reports():
     heard = []
     report("nobody hears")
     with listening(heard.append):
@@ -55,7 +55,7 @@ def test_other_threads_are_not_heard():
         ("thorough", "start 3 of 3, chains, "),
     ],
 )
-def test_every_search_tells_how_far_it_is(search, words):
+def test_every_search_reports_how_far_it_is(search, words):
     heard = []
     with listening(heard.append):
         optimize_flips(*meshes.bumpy_sphere(60), energy="willmore", search=search, sweeps=3)

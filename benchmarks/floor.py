@@ -21,19 +21,19 @@ from benchmarks import machine
 from meshlab_willmore import optimize
 from meshlab_willmore.energy import virtual, willmore
 from meshlab_willmore.energy.angles import radians, rough
-from meshlab_willmore.energy.kinds import KINDS
+from meshlab_willmore.energy.table import ENERGIES
 from meshlab_willmore.guards.bvh import inactive_bvh
 from meshlab_willmore.mesh.build import build
 from meshlab_willmore.mesh.halfedge import is_free
 from meshlab_willmore.mesh.jit import jit
 from meshlab_willmore.mesh.parallel import thread_pool
 from meshlab_willmore.mesh.validate import check_mesh, to_unit_scale
-from meshlab_willmore.search import entries
-from meshlab_willmore.search.board import board_of
-from meshlab_willmore.search.lanes import (
+from meshlab_willmore.search.compiled import KERNELS
+from meshlab_willmore.search.rounds import initial_state
+from meshlab_willmore.search.scoring import (
     LANES,
     drop_at,
-    empty_lanes,
+    empty_rows,
     fill,
     find_drops,
     is_positive,
@@ -101,13 +101,13 @@ def free_edges(mesh, edges):
     return np.array([h for h in edges if is_free(mesh, h)], np.int32)
 
 
-def contenders(board, ready, edges):
+def contenders(state, ready, edges):
     """The pass and its floor, on one thread and on all."""
     threads = {"one thread": 1, f"{numba.config.NUMBA_NUM_THREADS} threads": None}
     found = {}
     for name, count in threads.items():
         found["pass", name] = functools.partial(
-            shared, entries.score_virtual, board, len(board.touched), count
+            shared, KERNELS[ENERGY].score, state, len(state.dirty), count
         )
         found["floor", name] = functools.partial(shared, compute, ready, len(edges), count)
     return found
@@ -115,27 +115,27 @@ def contenders(board, ready, edges):
 
 def shared(kernel, task, count, threads):
     """Seconds of the work on so many threads, which are there already."""
-    with thread_pool(threads) as share:
-        return machine.seconds_of(functools.partial(share, kernel, task, count))
+    with thread_pool(threads) as parallel_for:
+        return machine.seconds_of(functools.partial(parallel_for, kernel, task, count))
 
 
 def prepared(points):
-    """The board of the mesh, the same edges ready for the arithmetic, and these edges."""
+    """The state of the mesh, the same edges ready for the arithmetic, and these edges."""
     vertices, faces = check_mesh(*meshes.torus(points, 0.3, 8))
     mesh = build(to_unit_scale(vertices, faces)[0], faces)
-    rules = optimize._suited(optimize._rules(True, 90.0, None), KINDS[ENERGY], mesh)
-    board = board_of(mesh, rules, inactive_bvh())
-    edges = free_edges(mesh, board.touched)
+    rules = optimize._suited(optimize._rules(True, 90.0, None), ENERGIES[ENERGY], mesh)
+    state = initial_state(mesh, rules, inactive_bvh())
+    edges = free_edges(mesh, state.dirty)
     edges = edges[: len(edges) // LANES * LANES]
     rows = blocks_of(mesh, edges)
     helpful = blocks_of(mesh, find_helpful(rows, edges))
     ranks, gains = np.zeros((len(rows), LANES)), np.zeros((len(helpful), LANES))
-    return board, Ready(rows, helpful, ranks, gains), edges
+    return state, Ready(rows, helpful, ranks, gains), edges
 
 
 def blocks_of(mesh, edges):
     """Return the numbers of whole blocks of the edges."""
-    rows = np.zeros((len(edges) // LANES, len(empty_lanes())))
+    rows = np.zeros((len(edges) // LANES, len(empty_rows())))
     gather(mesh, edges[: len(rows) * LANES], rows)
     return rows
 
@@ -146,26 +146,26 @@ def main(arguments):
     parser.add_argument("--rounds", type=int, default=9)
     options = parser.parse_args(arguments)
     print("\n".join(machine.description()))
-    board, ready, edges = prepared(options.points)
-    taking_turns = contenders(board, ready, edges)
+    state, ready, edges = prepared(options.points)
+    taking_turns = contenders(state, ready, edges)
     # Once, so that nothing is compiled or loaded later.
     machine.interleaved(taking_turns, 1)
     medians = {
         key: figures[0]
         for key, figures in machine.interleaved(taking_turns, options.rounds).items()
     }
-    print(f"\n{len(board.touched)} edges, n = {options.rounds}\n")
-    print_table(["", "floor, ns an edge", "pass, ns an edge", "share"], rows(medians, board, edges))
+    print(f"\n{len(state.dirty)} edges, n = {options.rounds}\n")
+    print_table(["", "floor, ns an edge", "pass, ns an edge", "share"], rows(medians, state, edges))
     one, every = (medians["pass", name] for what, name in medians if what == "pass")
     print(f"\nThe pass is {one / every:.2f} times as fast on all threads as on one.")
 
 
-def rows(medians, board, edges):
+def rows(medians, state, edges):
     """A line for each number of threads."""
     for what, name in medians:
         if what == "floor":
             floor = medians[what, name] / len(edges) / NANO
-            whole = medians["pass", name] / len(board.touched) / NANO
+            whole = medians["pass", name] / len(state.dirty) / NANO
             yield [name, f"{floor:.1f}", f"{whole:.1f}", f"{floor / whole:.2f}"]
 
 

@@ -1,12 +1,13 @@
 """Edge flips that lower an energy, on plain arrays: the package's main function."""
 
 import math
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
 from . import guards, options
-from .energy.kinds import KINDS
+from .energy.table import AT, ENERGIES
 from .guards.bvh import build_bvh, inactive_bvh
 from .measure import willmore_energy_of
 from .mesh.build import build, changed_edges, in_old_slots, local_order
@@ -19,26 +20,48 @@ from .mesh.validate import (
     in_input_units,
     to_unit_scale,
 )
-from .search import annealing, chains, greedy, parallel_greedy, thorough, variable_depth
-from .search.kernels import AT, KERNELS, PLACED_KERNELS
-from .search.rules import CONVERGED, NO_LIMIT, Rules
+from .search import annealing, greedy, multistart, parallel_greedy, variable_depth
+from .search.compiled import KERNELS, PLACED_KERNELS
+from .search.rules import CONVERGED, NO_LIMIT, ChainLimits, Rules, Schedule, Settings
 
-# Where else the thorough search begins: after descents along these energies.
-PRELUDES = ("delaunay", "mean curvature")
 NO_FLIP = "no allowed flip lowers the energy any more"
 NO_CHAIN = "no allowed chain of flips lowers the energy any more"
-CONVERGED_REASONS = {
-    "parallel greedy": NO_FLIP,
-    "greedy": NO_FLIP,
-    "variable depth": NO_CHAIN,
-    "annealing": NO_FLIP,
-    "thorough": NO_CHAIN,
-}
 STOPPED_REASON = "maxflips reached"
 # Cost reductions are ranked in steps of this part of the median edge, to the energy's power.
 RANK_STEP = 1e-9
 # Steps of the unit of length, and the least median edge that has one.
 UNIT_STEP, SHORTEST = 16.0, 1e-30
+
+
+class Search(NamedTuple):
+    """A search.
+
+    Attributes
+    ----------
+    run : callable
+        With the parameters and the result of `meshlab_willmore.search.greedy.run`.
+    converged : str
+        What it means that it has converged.
+    is_random : bool
+        Whether flips go to and fro, so that their number says nothing of the result: then the edges
+        that have changed are counted.
+    warm_starts : tuple of str
+        Energies along which greedy descent makes one more start each.
+    """
+
+    run: Callable
+    converged: str
+    is_random: bool = False
+    warm_starts: tuple[str, ...] = ()
+
+
+SEARCHES = {
+    "parallel greedy": Search(parallel_greedy.run, NO_FLIP),
+    "greedy": Search(greedy.run, NO_FLIP),
+    "variable depth": Search(variable_depth.run, NO_CHAIN),
+    "annealing": Search(annealing.run, NO_FLIP, is_random=True),
+    "thorough": Search(multistart.run, NO_CHAIN, warm_starts=("delaunay", "mean curvature")),
+}
 
 
 class FlipResult(NamedTuple):
@@ -246,8 +269,8 @@ def optimize_flips(
     rules = _rules(monotone, foldangle, maxflips)
     if not isinstance(place, str):
         rules, place = rules._replace(virtualpoint=place), AT
-    reach = chains.Reach(options.DEPTH.checked(depth), options.BREADTH.checked(breadth))
-    schedule = annealing.Schedule(options.SWEEPS.checked(sweeps), options.SEED.checked(seed))
+    limits = ChainLimits(options.DEPTH.checked(depth), options.BREADTH.checked(breadth))
+    schedule = Schedule(options.SWEEPS.checked(sweeps), options.SEED.checked(seed))
     locks = _Locks(
         options.FEATUREDEG.checked(featuredeg),
         None if selected_faces is None else check_mask(selected_faces, len(faces)),
@@ -260,36 +283,25 @@ def optimize_flips(
     mesh = build(scaled, faces[order])
     mesh = _locked(mesh, locks, order)
     before = willmore_energy_of(mesh)
-    kind = KINDS[energy]
+    row = ENERGIES[energy]
     kernels = PLACED_KERNELS[place] if energy == "virtual willmore" else KERNELS[energy]
-    rules = _suited(rules, kind, mesh)
-    space = build_bvh(mesh, exponent) if is_guarded else inactive_bvh()
-    if search == "parallel greedy":
-        progress = parallel_greedy.run(kernels.score, mesh, rules, space)
-    elif search == "greedy":
-        progress = greedy.run(kernels.greedy, mesh, rules, space)
-    elif search == "variable depth":
-        progress = variable_depth.run(kernels.depth, kernels.greedy, mesh, rules, reach, space)
-    elif search == "annealing":
-        progress = annealing.run(kernels, mesh, rules, schedule, space)
-    else:
-        preludes = [
-            thorough.Prelude(KERNELS[name].greedy, _suited(rules, KINDS[name], mesh))
-            for name in PRELUDES
-        ]
-        progress = thorough.run(kernels, preludes, mesh, rules, reach, space)
+    rules = _suited(rules, row, mesh)
+    bvh = build_bvh(mesh, exponent) if is_guarded else inactive_bvh()
+    chosen = SEARCHES[search]
+    warm_starts = tuple(
+        (KERNELS[name], _suited(rules, ENERGIES[name], mesh)) for name in chosen.warm_starts
+    )
+    progress = chosen.run(kernels, mesh, rules, bvh, Settings(limits, schedule, warm_starts))
     converged = progress.state == CONVERGED
     new_faces, corners = in_old_slots(mesh, order)
-    # Random flips go to and fro: how many there were says nothing of the result.
-    flips = changed_edges(faces, new_faces) if search == "annealing" else progress.flips
     return FlipResult(
         faces=new_faces,
-        flips=flips,
-        gain=in_input_units(progress.gain, exponent * kind.length_power),
+        flips=changed_edges(faces, new_faces) if chosen.is_random else progress.flips,
+        gain=in_input_units(progress.gain, exponent * row.length_power),
         willmore_before=before,
         willmore_after=willmore_energy_of(mesh),
         converged=converged,
-        reason=CONVERGED_REASONS[search] if converged else STOPPED_REASON,
+        reason=chosen.converged if converged else STOPPED_REASON,
         corners=corners,
     )
 
@@ -304,19 +316,19 @@ def _rules(monotone, foldangle, maxflips):
     )
 
 
-def _suited(rules, kind, mesh):
+def _suited(rules, row, mesh):
     """Return the rules as an energy needs them, with tolerances in its unit."""
     rules = rules._replace(
-        monotone=rules.monotone and not kind.is_potential,
-        is_potential=kind.is_potential,
-        is_wide=kind.is_wide,
+        monotone=rules.monotone and not row.is_potential,
+        is_potential=row.is_potential,
+        is_wide=row.is_wide,
     )
-    if not (kind.length_power and len(mesh.origin)):
+    if not (row.length_power and len(mesh.origin)):
         return rules
     # In large steps: flips change the median, and the same tolerance has to hold in a second run.
     steps = round(math.log(max(float(np.median(lengths_of_sides(mesh))), SHORTEST), UNIT_STEP))
-    unit = UNIT_STEP ** (steps * kind.length_power)
-    return rules._replace(tolerance=kind.least * unit, rank_step=RANK_STEP * unit)
+    unit = UNIT_STEP ** (steps * row.length_power)
+    return rules._replace(tolerance=row.least * unit, rank_step=RANK_STEP * unit)
 
 
 def _locked(mesh, locks, order):

@@ -5,13 +5,14 @@ with what the package does, the mean over one point at t and one at 1 - t.
 """
 
 import math
+import sys
 
 from meshlab_willmore.energy.angles import angle, radians
 from meshlab_willmore.energy.sides import View, Views, side_angles, sides_of
 from meshlab_willmore.mesh.halfedge import diamond
 from meshlab_willmore.mesh.jit import generic, jit
 from meshlab_willmore.mesh.points import Point, subtract
-from meshlab_willmore.search import greedy
+from meshlab_willmore.search import compiled, greedy
 
 
 @jit
@@ -47,7 +48,7 @@ def cost_reduction(mesh, h, t):
     return gain if math.isfinite(gain) else -math.inf
 
 
-@generic
-def greedy_both(task, progress):
-    """The greedy search on it."""
-    return greedy.advance(task, progress, cost_reduction)
+# The greedy search on it.
+BOTH = compiled.KERNELS["virtual willmore"]._replace(
+    greedy=generic(compiled.specialised(greedy.advance, sys.modules[__name__]))
+)

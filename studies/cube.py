@@ -12,7 +12,7 @@ import numpy as np
 import pymeshlab
 
 from meshlab_willmore import optimize_flips
-from meshlab_willmore.energy.kinds import KINDS
+from meshlab_willmore.energy.table import ENERGIES
 from meshlab_willmore.mesh.build import build
 from studies.models import print_table
 from studies.triangulations import (
@@ -62,7 +62,7 @@ def descents():
     for push in PUSHES:
         vertices, faces = cube(push)
         yield [str(push), "(initial)", "", "", *texts(measured(vertices, faces)), "0"]
-        for energy in KINDS:
+        for energy in ENERGIES:
             for search in SEARCHES:
                 result = optimize_flips(vertices, faces, energy=energy, search=search)
                 found = measured(vertices, result.faces)

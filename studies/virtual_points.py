@@ -16,7 +16,7 @@ from meshlab_willmore.mesh.halfedge import can_flip
 from meshlab_willmore.search import greedy
 from meshlab_willmore.search.rules import Rules
 from studies import models
-from studies.both_points import greedy_both
+from studies.both_points import BOTH
 from tests import meshes
 
 PLACES = ["midpoint", "closest", 0.4, 0.3, 0.2, 0.1, 0.01]
@@ -56,7 +56,7 @@ def both_at_once():
         for t in (0.4, 0.3, 0.2, 0.1):
             mesh = build(vertices, faces)
             rules = Rules(fold_limits(90.0), virtualpoint=t)
-            flips = greedy.run(greedy_both, mesh, rules).flips
+            flips = greedy.run(BOTH, mesh, rules).flips
             yield row(name, f"{t} and {1.0 - t:.1f}", vertices, faces_of(mesh), flips)
 
 

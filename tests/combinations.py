@@ -4,7 +4,7 @@ import itertools
 
 import pytest
 
-from meshlab_willmore.energy.kinds import KINDS
+from meshlab_willmore.energy import table
 
 # Without the JIT, kernels of the others take too long.
 BOTH_WILLMORE = ("virtual willmore", "willmore")
@@ -15,12 +15,12 @@ def _param(energy, *values):
     return pytest.param(energy, *values, marks=marks)
 
 
-ENERGIES = [_param(energy) for energy in KINDS]
+ENERGIES = [_param(energy) for energy in table.ENERGIES]
 # `energy` and `monotone`, which means nothing where a cost reduction is the drop of the energy.
 ENERGIES_AND_RULES = [
     _param(energy, monotone)
-    for energy, kind in KINDS.items()
-    for monotone in ((True,) if kind.is_potential else (True, False))
+    for energy, row in table.ENERGIES.items()
+    for monotone in ((True,) if row.is_potential else (True, False))
 ]
 
 

@@ -9,7 +9,7 @@ import types
 
 import meshlab_willmore
 from meshlab_willmore.mesh import jit
-from meshlab_willmore.search.kernels import KERNELS, PLACED_KERNELS
+from meshlab_willmore.search.compiled import KERNELS, PLACED_KERNELS
 
 
 def called_from_python():

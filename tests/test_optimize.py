@@ -9,21 +9,21 @@ import numpy as np
 import pytest
 
 from meshlab_willmore import guards, optimize
-from meshlab_willmore.energy import willmore
-from meshlab_willmore.energy.kinds import KINDS
+from meshlab_willmore.energy import table, willmore
 from meshlab_willmore.measure import measures, triangle_shapes, willmore_energy
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import can_flip
 from meshlab_willmore.mesh.parallel import CHUNK
 from meshlab_willmore.optimize import FlipResult, optimize_flips
 from meshlab_willmore.options import ENERGY, SEARCH
-from meshlab_willmore.search import peaks
+from meshlab_willmore.search import parallel_greedy
+from meshlab_willmore.search.compiled import KERNELS
 from tests import meshes, reference
 from tests.combinations import BOTH_WILLMORE, ENERGIES, ENERGIES_AND_RULES
 from tests.search.ways import scramble
 
 HEAVY = pytest.mark.heavy
-POTENTIALS = [name for name, kind in KINDS.items() if kind.is_potential]
+POTENTIALS = [name for name, row in table.ENERGIES.items() if row.is_potential]
 HEAVY_DEPTH = pytest.param("variable depth", marks=HEAVY)
 BUMPY = meshes.bumpy_sphere(60)
 PATCH = meshes.patch(60)
@@ -252,7 +252,7 @@ def test_gain_is_before_minus_after_on_a_closed_mesh():
 @pytest.mark.parametrize("energy", POTENTIALS)
 @pytest.mark.slow
 def test_gain_is_the_drop_of_the_energy_in_its_own_unit(energy, search):
-    total, power = KINDS[energy].total, KINDS[energy].length_power
+    total, power = KERNELS[energy].total, table.ENERGIES[energy].length_power
     for vertices, faces in (meshes.torus(60, None, 1), PATCH, BUMPY):
         result = optimize_flips(vertices, faces, energy=energy, search=search)
         before, after = (total(build(vertices, f)) for f in (faces, result.faces))
@@ -274,14 +274,13 @@ def test_every_search_is_worth_it_on_every_energy(energy, search):
     result = optimize_flips(vertices, faces, energy=energy, search=search)
     mesh = build(vertices, result.faces)
     fold = guards.fold_limits(90.0)
-    kind = KINDS[energy]
     left = [
-        kind.cost_reduction(mesh, h)
+        KERNELS[energy].energy.cost_reduction(mesh, h)
         for h in np.flatnonzero(np.arange(len(mesh.twin)) < mesh.twin)
         if can_flip(mesh, h) and not guards.folds(mesh, h, fold)
-        if kind.is_potential or willmore.cost_reduction(mesh, h) > 1e-7
+        if table.ENERGIES[energy].is_potential or willmore.cost_reduction(mesh, h) > 1e-7
     ]
-    assert len(left) > 100 or not kind.is_potential
+    assert len(left) > 100 or not table.ENERGIES[energy].is_potential
     assert max(left, default=0.0) <= 1e-7
 
 
@@ -316,7 +315,7 @@ def test_details_count_beside_large_parts(energy, scale):
     both = np.vstack([vertices, large + 5.0]), np.vstack([faces, other + len(vertices)])
     together = optimize_flips(*both, energy=energy)
     before, one, other = (
-        KINDS[energy].total(build(vertices, f[: len(faces)]))
+        KERNELS[energy].total(build(vertices, f[: len(faces)]))
         for f in (faces, alone.faces, together.faces)
     )
     # Gains far below the usual ones are ranked alike, so that the way may be another one.
@@ -343,7 +342,7 @@ def test_the_result_is_a_minimum_of_its_own_search(mesh, energy):
     vertices, faces = mesh
     result = optimize_flips(vertices, faces, energy=energy)
     assert result.flips > 5
-    before, after = (KINDS[energy].total(build(vertices, f)) for f in (faces, result.faces))
+    before, after = (KERNELS[energy].total(build(vertices, f)) for f in (faces, result.faces))
     assert after < before
     again = optimize_flips(vertices, result.faces, energy=energy)
     assert again.flips == 0
@@ -385,9 +384,9 @@ def test_chains_on_the_virtual_energy_leave_it_nothing_to_lower():
 def test_flips_do_not_change_the_least_gain_of_a_flip(energy):
     """The median edge is another one afterwards: a second run would flip what was too little."""
     vertices, faces = BUMPY
-    kind, rules = KINDS[energy], optimize._rules(True, 90.0, None)
+    row, rules = table.ENERGIES[energy], optimize._rules(True, 90.0, None)
     after = optimize_flips(vertices, faces, energy=energy).faces
-    one, other = (optimize._suited(rules, kind, build(vertices, f)) for f in (faces, after))
+    one, other = (optimize._suited(rules, row, build(vertices, f)) for f in (faces, after))
     assert (one.tolerance, one.rank_step) == (other.tolerance, other.rank_step)
     assert one.tolerance > 0.0
 
@@ -417,7 +416,7 @@ def test_similarities_change_nothing(mesh, monotone, energy):
     for factor, other in moved:
         found = optimize_flips(other, faces, **options)
         np.testing.assert_array_equal(found.faces, wanted.faces)
-        gain = wanted.gain * factor ** KINDS[energy].length_power
+        gain = wanted.gain * factor ** table.ENERGIES[energy].length_power
         assert found.gain == pytest.approx(gain, rel=1e-7)
 
 
@@ -724,16 +723,16 @@ def test_an_interrupt_in_the_first_round_is_served_at_once_and_changes_nothing(m
     before, started = faces.copy(), []
     # To compile is not what is timed.
     optimize_flips(vertices, faces, maxflips=0)
-    find_peaks = peaks.find_peaks
+    find_maxima = parallel_greedy.find_maxima
 
-    def interrupted(look, start, stop):
+    def interrupted(candidates, start, stop):
         # On one thread or another, but once in a round.
         if start == 3 * CHUNK and not started:
             started.append(time.perf_counter())
             os.kill(os.getpid(), signal.SIGINT)
-        find_peaks(look, start, stop)
+        find_maxima(candidates, start, stop)
 
-    monkeypatch.setattr(peaks, "find_peaks", interrupted)
+    monkeypatch.setattr(parallel_greedy, "find_maxima", interrupted)
     with pytest.raises(KeyboardInterrupt):
         optimize_flips(vertices, faces)
     elapsed = time.perf_counter() - started[0]

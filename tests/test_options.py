@@ -20,7 +20,7 @@ from meshlab_willmore.options import (
     SELECTION,
     described,
 )
-from meshlab_willmore.search import chains
+from meshlab_willmore.search.stencil import RING
 
 README = Path(__file__).parents[1] / "README.md"
 OF_FILTER = {SELECTION.name, ALLOWLOSS.name}
@@ -76,7 +76,7 @@ def test_each_default_passes_its_own_check():
 
 def test_a_chain_has_room_for_the_greatest_breadth():
     (breadth,) = (option for option in OPTIONS if option.name == "breadth")
-    assert breadth.most == chains.RING
+    assert breadth.most == RING
 
 
 # --- where they are shown ------------------------------------------------------------------------

@@ -22,59 +22,49 @@ energy, and the virtual one leads the descents only. (Without the monotone rule 
 the annealing has gained; the states after the descents are compared.) The greedy result is one of
 the states that the best is chosen from, so annealing is never worse.
 
-The random numbers come from the PCG64 generator of NumPy, drawn ahead of each slice: the same seed
-gives the same flips on every machine, up to what rounding decides.
+The random numbers come from the PCG64 generator of NumPy, drawn ahead of each call: the same
+seed gives the same flips on every machine, up to what rounding decides.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from .. import guards
-from ..guards.bvh import Bvh, inactive_bvh, refit, refitted
-from ..guards.intersections import would_intersect
-from ..mesh.halfedge import NONE, Mesh, flip, is_free, makes_new_edge
-from ..mesh.jit import generic, inner
+from ..energy import willmore
+from ..guards.bvh import Bvh, refit, refitted
+from ..mesh.halfedge import NONE, Mesh, flip, is_free
+from ..mesh.jit import inner
 from ..mesh.notify import report
-from .rules import CONVERGED, STOPPED, WORKING, Rules
-from .states import State, assign, better, copy_of, descend, finish, start_from
+from .multistart import Snapshot, assign, better, copy_of, descend, finish, snapshot_of
+from .rules import (
+    ALLOWED,
+    CONVERGED,
+    DEFAULTS,
+    STOPPED,
+    WORK_PER_CALL,
+    WORKING,
+    Rules,
+    refusal,
+    refusal_by_all,
+)
 
-# Tries between two looks at the keyboard: some hundredths of a second.
-SLICE = 40_000
-
-
-class Schedule(NamedTuple):
-    """How the temperature falls.
-
-    Attributes
-    ----------
-    sweeps : int
-        Number of temperatures, at least 1; at each, as many flips are tried as there are edges.
-    seed : int
-        Of the random numbers, at least 0.
-    hot, cold : float
-        First and last temperature, as multiples of the median loss of a flip.
-    """
-
-    sweeps: int = 200
-    seed: int = 0
-    hot: float = 0.3
-    cold: float = 0.05
+# The judge: `meshlab_willmore.search.compiled` puts the module of each potential in this place.
+energy = willmore
 
 
-class Task(NamedTuple):
-    """What the search works on; it changes all but the rules in place.
+class AnnealingState(NamedTuple):
+    """State of the search; all but the rules changes in place.
 
     Attributes
     ----------
     mesh : Mesh
-        The state at hand.
+        The triangulation at hand.
     best : Mesh
-        The best state seen.
+        The best one seen.
     journal : (s,) int32
-        Half-edges flipped since the slice began.
+        Half-edges flipped since the call of the kernel began.
     rules : Rules
-    space : Bvh
+    bvh : Bvh
         The guard against self-intersections, up to date with `mesh`.
     """
 
@@ -82,11 +72,11 @@ class Task(NamedTuple):
     best: Mesh
     journal: np.ndarray
     rules: Rules
-    space: Bvh
+    bvh: Bvh
 
 
-class Walk(NamedTuple):
-    """How far the annealing is: flips and drop of the judge, here and at the best state; state."""
+class AnnealingProgress(NamedTuple):
+    """Flips and drop of the judge, here and at the best triangulation; state."""
 
     flips: int
     drop: float
@@ -96,74 +86,64 @@ class Walk(NamedTuple):
 
 
 @inner
-def may_flip(mesh, h, rules):
-    """Tell whether connectivity, locks and guards allow to flip `h`, energies aside."""
-    return is_free(mesh, h) and not guards.folds(mesh, h, rules.fold) and makes_new_edge(mesh, h)
-
-
-@inner
-def _keep_best(task, done, best):
-    """Make the state after the first `best` of the `done` flips of the journal the best one."""
-    assign(task.best, task.mesh)
+def _keep_best(state, done, best):
+    """Make the mesh after the first `best` of the `done` flips of the journal the best one."""
+    assign(state.best, state.mesh)
     for s in range(done - 1, best - 1, -1):
         # Four flips in a row change nothing, so three take one back.
         for _ in range(3):
-            flip(task.best, task.journal[s])
+            flip(state.best, state.journal[s])
 
 
-@generic
-def advance(task, walk, draws, temperature, judge):
+def anneal(state, progress, draws, temperature):
     """Try as many flips as there are rows of random numbers, at one temperature.
 
     Parameters
     ----------
-    task : Task
+    state : AnnealingState
         Changed in place; the journal has room for as many flips.
-    walk : Walk
+    progress : AnnealingProgress
         Where to go on.
     draws : (s, 2) float64
         Uniform in [0, 1): which half-edge, and whether it is flipped at a loss.
     temperature : float
         Positive, in units of the energy.
-    judge : callable
-        Jitted function of a mesh and a half-edge: the cost reduction, of a potential.
 
     Returns
     -------
     tuple
-        The fields of the new Walk.
+        The fields of the new AnnealingProgress.
     """
-    mesh, rules = task.mesh, task.rules
-    flips, drop, best_flips, best_drop, state = walk
+    mesh, rules = state.mesh, state.rules
+    flips, drop, best_flips, best_drop, outcome = progress
     done, best = 0, NONE
     for s in range(len(draws)):
         h = np.int64(draws[s, 0] * len(mesh.origin))
         if not is_free(mesh, h):
             continue
-        gain = judge(mesh, h)
+        gain = energy.cost_reduction(mesh, h)
         # A cost reduction of minus infinity never passes.
         if not (gain >= 0.0 or draws[s, 1] < np.exp(gain / temperature)):
             continue
-        if not may_flip(mesh, h, rules) or would_intersect(mesh, task.space, h):
+        if refusal_by_all(mesh, state.bvh, h, rules) != ALLOWED:
             continue
         if flips == rules.maxflips:
-            state = STOPPED
+            outcome = STOPPED
             break
         flip(mesh, h)
-        refit(mesh, task.space, h)
-        task.journal[done] = h
+        refit(mesh, state.bvh, h)
+        state.journal[done] = h
         done += 1
         flips += 1
         drop += gain
         if drop > best_drop + rules.tolerance:
             best, best_flips, best_drop = done, flips, drop
     if best != NONE:
-        _keep_best(task, done, best)
-    return flips, drop, best_flips, best_drop, state
+        _keep_best(state, done, best)
+    return flips, drop, best_flips, best_drop, outcome
 
 
-@generic
-def find_losses(mesh, rules, first, losses, judge):
+def find_losses(mesh, rules, first, losses):
     """Write the losses of the allowed flips of half-edges from `first` on into `losses`.
 
     Parameters
@@ -175,78 +155,63 @@ def find_losses(mesh, rules, first, losses, judge):
         h = first + place
         losses[place] = 0.0
         if h < mesh.twin[h] and is_free(mesh, h):
-            gain = judge(mesh, h)
-            if -np.inf < gain < 0.0 and may_flip(mesh, h, rules):
+            gain = energy.cost_reduction(mesh, h)
+            if -np.inf < gain < 0.0 and refusal(mesh, h, rules) == ALLOWED:
                 losses[place] = -gain
 
 
 def _median_loss(kernels, mesh, rules):
     """Return the median of the losses of the allowed flips, or 0 if there are none."""
     found = [np.empty(0)]
-    for first in range(0, len(mesh.origin), SLICE):
-        losses = np.empty(min(SLICE, len(mesh.origin) - first))
+    for first in range(0, len(mesh.origin), WORK_PER_CALL):
+        losses = np.empty(min(WORK_PER_CALL, len(mesh.origin) - first))
         kernels.losses(mesh, rules, first, losses)
         found.append(losses[losses > 0.0])
     losses = np.concatenate(found)
     return float(np.median(losses)) if len(losses) else 0.0
 
 
-def _sweep(kernel, task, schedule, loss):
-    """Try the flips of all sweeps, slice by slice, until the limit of flips is reached."""
+def _sweep(kernels, state, schedule, loss):
+    """Try the flips of all sweeps, call by call, until the limit of flips is reached."""
     random = np.random.default_rng(schedule.seed)
-    edges = len(task.mesh.origin) // 2
-    walk = Walk(0, 0.0, 0, 0.0, WORKING)
+    edges = len(state.mesh.origin) // 2
+    progress = AnnealingProgress(0, 0.0, 0, 0.0, WORKING)
     for sweep in range(schedule.sweeps):
-        share = sweep / max(schedule.sweeps - 1, 1)
-        temperature = loss * schedule.hot * (schedule.cold / schedule.hot) ** share
-        for tried in range(0, edges, SLICE):
-            draws = random.random((min(SLICE, edges - tried), 2))
-            walk = Walk(*kernel(task, walk, draws, temperature))
-            report(f"temperature {sweep + 1} of {schedule.sweeps}, {walk.flips} flips")
-            if walk.state == STOPPED:
-                return walk
-    return walk._replace(state=CONVERGED)
+        part = sweep / max(schedule.sweeps - 1, 1)
+        temperature = loss * schedule.hot * (schedule.cold / schedule.hot) ** part
+        for tried in range(0, edges, WORK_PER_CALL):
+            draws = random.random((min(WORK_PER_CALL, edges - tried), 2))
+            progress = AnnealingProgress(*kernels.anneal(state, progress, draws, temperature))
+            report(f"temperature {sweep + 1} of {schedule.sweeps}, {progress.flips} flips")
+            if progress.state == STOPPED:
+                return progress
+    return progress._replace(state=CONVERGED)
 
 
 def _anneal(kernels, begin, rules, schedule, loss):
-    """Return the last and the best state of the annealing that begins at the state `begin`."""
+    """Return the last and the best snapshot of the annealing that begins at another one."""
     mesh, best = copy_of(begin.mesh), copy_of(begin.mesh)
-    space, journal = refitted(begin.space, mesh), np.empty(SLICE, np.int32)
+    bvh, journal = refitted(begin.bvh, mesh), np.empty(WORK_PER_CALL, np.int32)
     left = rules._replace(maxflips=rules.maxflips - begin.flips)
-    walk = _sweep(kernels.anneal, Task(mesh, best, journal, left, space), schedule, loss)
-    at_best = refitted(space, best)
+    progress = _sweep(kernels, AnnealingState(mesh, best, journal, left, bvh), schedule, loss)
+    at_best = refitted(bvh, best)
     return (
-        State(mesh, space, begin.flips + walk.flips, walk.state),
-        State(best, at_best, begin.flips + walk.best_flips, walk.state),
+        Snapshot(mesh, bvh, begin.flips + progress.flips, progress.state),
+        Snapshot(best, at_best, begin.flips + progress.best_flips, progress.state),
     )
 
 
-def run(kernels, mesh, rules, schedule, space=None):
+def run(kernels, mesh, rules, bvh=None, settings=DEFAULTS):
     """Flip edges of `mesh` in place to the best state that annealing and descents find.
 
-    Parameters
-    ----------
-    kernels : Kernels
-        For one energy.
-    mesh : Mesh
-    rules : Rules
-        `maxflips` limits the flips on the way to each state, those that others take back counted
-        too. `monotone` holds for the descents.
-    schedule : Schedule
-    space : Bvh, optional
-        The guard against self-intersections, up to date with the mesh. It holds for each flip.
-
-    Returns
-    -------
-    Progress
-        `flips` on the way to the result; `gain`: the drop of the energy that judges; the state is
-        `CONVERGED` or `STOPPED`.
+    Parameters and result are those of `meshlab_willmore.search.greedy.run`, but the gain is the
+    drop of the energy that judges. `Rules.maxflips` limits the flips on the way to each state,
+    those that others take back counted too. `Rules.monotone` holds for the descents.
     """
-    begin = start_from(mesh, inactive_bvh() if space is None else space)
-    found = descend(kernels, begin, rules)
+    found = descend(kernels, snapshot_of(mesh, bvh), rules)
     loss = 0.0 if found.state == STOPPED else _median_loss(kernels, found.mesh, rules)
     if loss > 0.0:
-        for state in _anneal(kernels, found, rules, schedule, loss):
-            ended = state if state.state == STOPPED else descend(kernels, state, rules)
+        for snapshot in _anneal(kernels, found, rules, settings.schedule, loss):
+            ended = snapshot if snapshot.state == STOPPED else descend(kernels, snapshot, rules)
             found = better(kernels, rules, found, ended)
     return finish(kernels, mesh, found)

@@ -7,47 +7,23 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .. import guards
 from ..energy import willmore
 from ..guards.bvh import Bvh, refit
-from ..guards.intersections import would_intersect
-from ..mesh.halfedge import (
-    NONE,
-    Mesh,
-    apex,
-    flip,
-    following,
-    is_free,
-    makes_new_edge,
-    previous,
-)
+from ..mesh.halfedge import NONE, Mesh, apex, flip, following, is_free
 from ..mesh.jit import generic, inner
-from .pending import Pending
-from .rules import Rules
-from .scoring import gain_of
 
-RING = 12
+# Numba keeps no kernel on disk that hands on a function of its own module by its plain name.
+from . import chains, stencil
+from .containers import Fifo
+from .rules import ALLOWED, INTERSECTS, Rules, refusal_by_all
+from .scoring import gain_of
+from .stencil import RING
+
 # The part of the largest of several numbers that the rounding of their sum stays below.
 ROUNDING = 1e-13
 CORNERS = 6
 # Scored edges after which a start is given up: as many as six flips deep at the largest breadth.
 MOST_WORK = 10_000
-
-
-class Reach(NamedTuple):
-    """How far chains go.
-
-    Attributes
-    ----------
-    depth : int
-        Most flips of a chain, at least 1.
-    breadth : int
-        Number of edges, 1 to `RING`, that are tried for the second flip of a chain; half as many,
-        rounded up, for the third, and so on. 1: chains do not branch.
-    """
-
-    depth: int = 5
-    breadth: int = 3
 
 
 class Chain(NamedTuple):
@@ -81,6 +57,8 @@ class Chain(NamedTuple):
         How many of these were allowed, and flipped.
     ring : (12,) int32
         Half-edges around the last flip.
+    ring_size : (1,) int64
+        Their number.
     best : (D,) int32
         Half-edges of the best prefix.
     """
@@ -98,25 +76,37 @@ class Chain(NamedTuple):
     seen: np.ndarray
     tried: np.ndarray
     ring: np.ndarray
+    ring_size: np.ndarray
     best: np.ndarray
 
 
-class Task(NamedTuple):
-    """What the search works on; it changes all but the rules in place.
+class ChainState(NamedTuple):
+    """State of the variable-depth search; all but the rules changes in place.
 
-    `touched` (n,) marks the vertices of the diamonds that were flipped for good, `blocked` (3 m,)
-    the starts of chains that failed after a flip was refused for a cut; whether that was so in the
-    chain at hand is in `refused` (1,).
+    Attributes
+    ----------
+    mesh : Mesh
+    queue : Fifo
+        Starts of chains, the lower half-edge of each edge.
+    chain : Chain
+    changed : (n,) bool
+        The vertices of the diamonds that were flipped for good.
+    rules : Rules
+    bvh : Bvh
+    blocked : (3 m,) bool
+        The starts of chains that failed after a flip was refused for a cut.
+    hit_cut : (1,) bool
+        Whether that was so in the chain at hand.
     """
 
     mesh: Mesh
-    pending: Pending
+    queue: Fifo
     chain: Chain
-    touched: np.ndarray
+    changed: np.ndarray
     rules: Rules
-    space: Bvh
+    bvh: Bvh
     blocked: np.ndarray
-    refused: np.ndarray
+    hit_cut: np.ndarray
 
 
 class Prefix(NamedTuple):
@@ -127,17 +117,18 @@ class Prefix(NamedTuple):
     drop: float
 
 
-def _widths(reach):
+def _widths(limits):
     """Return how many candidates are tried at each step, the start being one."""
-    widths, width = [1], reach.breadth
-    for _ in range(reach.depth - 1):
+    widths, width = [1], limits.breadth
+    for _ in range(limits.depth - 1):
         widths.append(width)
         width = (width + 1) // 2
     return np.array(widths, np.int64)
 
 
-def no_chain(reach):
-    depth = reach.depth
+def empty_chain(limits):
+    """Return room for chains within these limits, a ChainLimits."""
+    depth = limits.depth
     return Chain(
         flipped=np.empty(depth, np.int32),
         joined=np.empty((depth, 2), np.int32),
@@ -145,67 +136,59 @@ def no_chain(reach):
         gain=np.zeros(depth + 1),
         drop=np.zeros(depth + 1),
         willmore=np.zeros(depth + 1),
-        width=_widths(reach),
+        width=_widths(limits),
         candidate=np.empty((depth, RING), np.int32),
         score=np.empty((depth, RING)),
         offered=np.zeros(depth, np.int64),
         seen=np.zeros(depth, np.int64),
         tried=np.zeros(depth, np.int64),
         ring=np.empty(RING, np.int32),
+        ring_size=np.zeros(1, np.int64),
         best=np.empty(depth, np.int32),
     )
 
 
 @inner
-def ring_around(mesh, h, ring):
-    """Write the sides of the diamond of `h`, and the other sides of the faces outside, to `ring`.
-
-    Returns
-    -------
-    int
-        Their number, at most `RING`: the edges besides `h` whose cost reductions its flip changes.
-    """
-    t = mesh.twin[h]
-    count = 0
-    for side in (following(h), previous(h), following(t), previous(t)):
-        ring[count] = side
-        count += 1
-        outside = mesh.twin[side]
-        if outside != NONE:
-            ring[count], ring[count + 1] = following(outside), previous(outside)
-            count += 2
-    return count
+def append_to_ring(state, h, _):
+    """Add `h` to the ring of the chain."""
+    chain = state.chain
+    chain.ring[chain.ring_size[0]] = h
+    chain.ring_size[0] += 1
+    return False
 
 
 @inner
-def _may_flip(task, h):
-    """Tell whether connectivity, locks and guards allow to flip `h`, energies aside."""
-    mesh = task.mesh
-    if not is_free(mesh, h) or guards.folds(mesh, h, task.rules.fold):
-        return False
-    if not makes_new_edge(mesh, h):
-        return False
-    if would_intersect(mesh, task.space, h):
-        task.refused[0] = True
-        return False
-    return True
+def find_ring(state, h):
+    """Write the edges around that of `h` into the ring of the chain; return their number."""
+    state.chain.ring_size[0] = 0
+    stencil.visit_ring(state, h, chains.append_to_ring, None)
+    return state.chain.ring_size[0]
 
 
 @inner
-def _is_joined(task, h, length):
-    """Tell whether the chain has made the edge of `h` itself."""
-    a, b = task.mesh.origin[h], task.mesh.origin[following(h)]
+def _may_flip(state, h):
+    """Whether connectivity, locks and guards allow to flip `h`, energies aside."""
+    reason = refusal_by_all(state.mesh, state.bvh, h, state.rules)
+    if reason == INTERSECTS:
+        state.hit_cut[0] = True
+    return reason == ALLOWED
+
+
+@inner
+def _is_joined(state, h, length):
+    """Whether the chain has made the edge of `h` itself."""
+    a, b = state.mesh.origin[h], state.mesh.origin[following(h)]
     low, high = min(a, b), max(a, b)
     for s in range(length):
-        if task.chain.joined[s, 0] == low and task.chain.joined[s, 1] == high:
+        if state.chain.joined[s, 0] == low and state.chain.joined[s, 1] == high:
             return True
     return False
 
 
 @inner
-def _offer(task, s, h, score):
+def _offer(state, s, h, score):
     """Sort `h` into the candidates of step `s`, after those of the same rank."""
-    chain, step = task.chain, task.rules.rank_step
+    chain, step = state.chain, state.rules.rank_step
     place = chain.offered[s]
     chain.offered[s] += 1
     # In steps, so that rounding does not decide between edges that are equal by symmetry.
@@ -219,47 +202,47 @@ def _offer(task, s, h, score):
 
 
 @generic
-def _find_candidates(task, count, s, ranking):
+def _find_candidates(state, count, s, ranking):
     """Fill the candidates of step `s` from the first `count` half-edges of the ring."""
-    mesh, chain = task.mesh, task.chain
+    mesh, chain = state.mesh, state.chain
     chain.offered[s] = chain.seen[s] = chain.tried[s] = 0
     for place in range(count):
         h = chain.ring[place]
         if is_free(mesh, h):
-            score = gain_of(ranking, mesh, h, task.rules)
+            score = gain_of(ranking.cost_reduction, mesh, h, state.rules)
             if score > -np.inf:
-                _offer(task, s, h, score)
+                _offer(state, s, h, score)
 
 
 @inner
-def _next_candidate(task, s):
+def _next_candidate(state, s):
     """Return the place of the best candidate of step `s` not tried yet that is allowed, or NONE."""
-    chain = task.chain
+    chain = state.chain
     while chain.seen[s] < chain.offered[s] and chain.tried[s] < chain.width[s]:
         place = chain.seen[s]
         chain.seen[s] += 1
         h = chain.candidate[s, place]
-        if not _is_joined(task, h, s) and _may_flip(task, h):
+        if not _is_joined(state, h, s) and _may_flip(state, h):
             chain.tried[s] += 1
             return place
     return NONE
 
 
 @inner
-def _add(task, h, s, score, drop):
+def _add(state, h, s, score, drop):
     """Write down what `h`, as the flip after `s` others, gains as ranked and as judged."""
-    chain = task.chain
+    chain = state.chain
     chain.flipped[s] = h
     chain.gain[s + 1] = chain.gain[s] + score
     chain.drop[s + 1] = chain.drop[s] + drop
-    if task.rules.monotone:
-        chain.willmore[s + 1] = chain.willmore[s] + willmore.cost_reduction(task.mesh, h)
+    if state.rules.monotone:
+        chain.willmore[s + 1] = chain.willmore[s] + willmore.cost_reduction(state.mesh, h)
 
 
 @inner
-def _better(task, length, best):
+def _better(state, length, best):
     """Return the better one of the prefix `best` and the whole chain of `length` flips."""
-    chain, rules = task.chain, task.rules
+    chain, rules = state.chain, state.rules
     largest = 0.0
     for s in range(length):
         largest = max(largest, abs(chain.drop[s + 1]))
@@ -272,9 +255,9 @@ def _better(task, length, best):
 
 
 @inner
-def _do(task, s):
+def _do(state, s):
     """Make the flip of step `s`."""
-    mesh, chain = task.mesh, task.chain
+    mesh, chain = state.mesh, state.chain
     h = chain.flipped[s]
     t = mesh.twin[h]
     a, b = apex(mesh, h), apex(mesh, t)
@@ -283,61 +266,61 @@ def _do(task, s):
         chain.corner[s, c] = mesh.corner[h - h % 3 + c]
         chain.corner[s, 3 + c] = mesh.corner[t - t % 3 + c]
     flip(mesh, h)
-    refit(mesh, task.space, h)
+    refit(mesh, state.bvh, h)
 
 
 @inner
-def _undo(task, s):
+def _undo(state, s):
     """Take the flip of step `s` back: the mesh is the same as before it, bit for bit."""
-    mesh, chain = task.mesh, task.chain
+    mesh, chain = state.mesh, state.chain
     h = chain.flipped[s]
     t = mesh.twin[h]
     # A flip turns the diagonal by a quarter.
     flip(mesh, h)
     flip(mesh, h)
     flip(mesh, h)
-    refit(mesh, task.space, h)
+    refit(mesh, state.bvh, h)
     for c in range(3):
         mesh.corner[h - h % 3 + c] = chain.corner[s, c]
         mesh.corner[t - t % 3 + c] = chain.corner[s, 3 + c]
 
 
 @generic
-def _finish(task, count, s, best, ranking, judge):
+def _finish(state, count, s, best, ranking, judge):
     """Return the best prefix when step `s`, the last one, is any of `count` edges of the ring.
 
     Nothing comes after these flips, so they need not be made to know what they are worth, and
     whether they are allowed is asked only where they are worth enough.
     """
-    mesh, chain, rules = task.mesh, task.chain, task.rules
+    mesh, chain, rules = state.mesh, state.chain, state.rules
     for place in range(count):
         h = chain.ring[place]
         if not is_free(mesh, h):
             continue
-        score = gain_of(ranking, mesh, h, rules)
+        score = gain_of(ranking.cost_reduction, mesh, h, rules)
         if not score > -np.inf:
             continue
-        drop = score if judge is None else judge(mesh, h)
+        drop = score if judge is None else judge.cost_reduction(mesh, h)
         if not chain.drop[s] + drop > best.drop + rules.tolerance:
             continue
-        if not _is_joined(task, h, s) and _may_flip(task, h):
-            _add(task, h, s, score, drop)
-            best = _better(task, s + 1, best)
+        if not _is_joined(state, h, s) and _may_flip(state, h):
+            _add(state, h, s, score, drop)
+            best = _better(state, s + 1, best)
     return best
 
 
 @generic
-def find_chain(task, start, ranking, judge):
+def find_chain(state, start, ranking, judge):
     """Find a chain that starts with the flip of `start` and lowers the energy.
 
     Parameters
     ----------
-    task : Task
+    state : ChainState
         The mesh is the same afterwards. ``chain.best`` is overwritten.
     start : int
         Half-edge with a twin.
-    ranking, judge : callable
-        As for `advance`.
+    ranking, judge : module
+        Energies; a judge of None: the one that ranks is also the judge.
 
     Returns
     -------
@@ -346,7 +329,7 @@ def find_chain(task, start, ranking, judge):
     work : int
         Number of scored edges.
     """
-    mesh, chain = task.mesh, task.chain
+    mesh, chain = state.mesh, state.chain
     best = Prefix(0, 0.0, 0.0)
     depth = len(chain.flipped)
     chain.ring[0] = start
@@ -354,31 +337,31 @@ def find_chain(task, start, ranking, judge):
     while True:
         if is_new:
             work += count
-            _find_candidates(task, count, s, ranking)
+            _find_candidates(state, count, s, ranking)
             is_new = False
-        place = _next_candidate(task, s) if work < MOST_WORK else NONE
+        place = _next_candidate(state, s) if work < MOST_WORK else NONE
         if place != NONE:
             h, score = np.int64(chain.candidate[s, place]), chain.score[s, place]
-            _add(task, h, s, score, score if judge is None else judge(mesh, h))
+            _add(state, h, s, score, score if judge is None else judge.cost_reduction(mesh, h))
             # Where an angle is undefined, nothing comes of it.
             if not np.isfinite(chain.drop[s + 1]):
                 continue
-            best = _better(task, s + 1, best)
+            best = _better(state, s + 1, best)
             if s + 1 == depth:
                 continue
-            _do(task, s)
-            count = ring_around(mesh, h, chain.ring)
+            _do(state, s)
+            count = find_ring(state, h)
             s += 1
             if s + 1 < depth:
                 is_new = True
                 continue
             work += count
-            best = _finish(task, count, s, best, ranking, judge)
+            best = _finish(state, count, s, best, ranking, judge)
         elif s == 0:
             return best, work
         # This way is explored: one step back, or all the way once it was worth it.
         s -= 1
-        _undo(task, s)
+        _undo(state, s)
         while s > 0 and best.length > 0:
             s -= 1
-            _undo(task, s)
+            _undo(state, s)

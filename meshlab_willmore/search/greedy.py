@@ -3,11 +3,11 @@
     put every edge that may be flipped into a queue, by cost reduction
     while the queue is not empty:
         take the edge i-j of the largest cost reduction
-        unless connectivity forbids the flip, or it would bring back an edge that must stay away:
-            if the flip lowers no true energy: i-j must stay away
+        unless connectivity forbids the flip, or it would bring back an edge of the tabu set:
+            if the flip lowers no true energy: put i-j into the tabu set
             flip i-j to k-l
             rescore k-l, the four sides, and the two other edges of each face outside (13 edges)
-        for an energy that looks further: rescore the edges at and opposite to i, j, k and l
+            for an energy that looks further: rescore the edges at and opposite to i, j, k and l
             rescore the edges that could not be flipped because i-j was there
             rescore the edges whose flip would have cut one of the two old faces
 
@@ -37,95 +37,108 @@ import numpy as np
 
 from ..energy import willmore
 from ..guards.bvh import Bvh, inactive_bvh, refit
-from ..mesh.halfedge import NONE, Mesh, flip, makes_new_edge
+from ..guards.intersections import ANY_ROUND
+from ..mesh.halfedge import NONE, Mesh, flip
 from ..mesh.jit import generic, inner
 from ..mesh.notify import report
-from . import rescoring
-from .heap import NEVER, Queue, empty_queue, first, update
-from .pairs import Pairs, insert, no_pairs, reserve
+from . import scoring
+from .containers import (
+    NEVER,
+    Heap,
+    PairSet,
+    WatchLists,
+    empty_heap,
+    empty_pair_set,
+    empty_watch_lists,
+    first,
+    insert,
+    reserve,
+    unwatch,
+    update,
+)
 from .rules import (
+    ALLOWED,
     CONVERGED,
+    DEFAULTS,
     MOST_PASSES,
     STOPPED,
+    WORK_PER_CALL,
     WORKING,
     Progress,
     Rules,
-    brings_back,
     is_blocked,
-    is_final,
+    is_finished,
+    is_tabu,
+    refusal,
 )
-from .scoring import gain_of
-from .touched import visit_around, visit_fans, visit_freed
-from .waiting import Waiting, leave, nothing_waits
+from .stencil import visit_fans, visit_freed, visit_stencil
 
-# Work between two looks at the keyboard, counted in scored edges: some hundredths of a second.
-SLICE = 40_000
+# For each energy `meshlab_willmore.search.compiled` puts its own module in this place.
+energy = willmore
+# Edges that a flip scores, about.
 SCORES_PER_FLIP = 16
 
 
-class Task(NamedTuple):
-    """What a search works on; it changes all but the rules in place.
+class GreedyState(NamedTuple):
+    """State of the search; all but the rules changes in place.
 
-    `kept_away` (1,) tells whether a flip was refused for an edge that must stay away.
+    `tabu_hit` (1,) says whether a flip was refused for an edge of the tabu set.
     """
 
     mesh: Mesh
-    queue: Queue
-    gone: Pairs
+    queue: Heap
+    tabu: PairSet
     rules: Rules
-    space: Bvh
-    waiting: Waiting
-    kept_away: np.ndarray
+    bvh: Bvh
+    watch_lists: WatchLists
+    tabu_hit: np.ndarray
 
 
 @inner
-def _must_stay_away(task, h):
-    """Tell whether the edge of `h` must not come back once flipped: the flip lowers no energy."""
-    rules = task.rules
+def _becomes_tabu(state, h):
+    """Whether the edge of `h` must not come back once flipped: the flip lowers no energy."""
+    rules = state.rules
     if rules.is_potential:
         return False
-    return not rules.monotone or willmore.cost_reduction(task.mesh, h) <= 2.0 * rules.tie
+    return not rules.monotone or willmore.cost_reduction(state.mesh, h) <= 2.0 * rules.tie
 
 
 @generic
-def _rescore_waiting(task, face, cost_reduction):
-    """Rescore the edges that have waited for a change of `face`."""
-    h = np.int64(task.waiting.first[face])
+def _rescore_freed(state, face, cost_reduction):
+    """Rescore the edges that watch `face`."""
+    h = np.int64(state.watch_lists.first[face])
     while h != NONE:
-        leave(task.waiting, h)
-        rescoring.rescore(task, h, cost_reduction)
-        h = np.int64(task.waiting.first[face])
+        unwatch(state.watch_lists, h)
+        scoring.rescore(state, h, cost_reduction)
+        h = np.int64(state.watch_lists.first[face])
 
 
 @generic
-def _flip(task, h, cost_reduction):
+def _flip(state, h, cost_reduction):
     """Flip `h`, bring everything up to date, and return about how many edges that has scored."""
     work = SCORES_PER_FLIP
-    flip(task.mesh, h)
-    if task.rules.is_wide:
-        work += visit_fans(task, h, rescoring.rescore, cost_reduction)
+    flip(state.mesh, h)
+    if state.rules.is_wide:
+        work += visit_fans(state, h, scoring.rescore, cost_reduction)
     else:
-        visit_around(task, h, rescoring.rescore, cost_reduction)
-    visit_freed(task, h, rescoring.rescore, cost_reduction)
-    if task.space.active:
-        refit(task.mesh, task.space, h)
-        _rescore_waiting(task, h // 3, cost_reduction)
-        _rescore_waiting(task, task.mesh.twin[h] // 3, cost_reduction)
+        visit_stencil(state, h, scoring.rescore, cost_reduction)
+    visit_freed(state, h, scoring.rescore, cost_reduction)
+    if state.bvh.active:
+        refit(state.mesh, state.bvh, h)
+        _rescore_freed(state, h // 3, cost_reduction)
+        _rescore_freed(state, state.mesh.twin[h] // 3, cost_reduction)
     return work
 
 
-@generic
-def advance(task, progress, cost_reduction):
-    """Go on with the search for about `SLICE` scored edges.
+def advance(state, progress):
+    """Go on with the search for about `WORK_PER_CALL` scored edges.
 
     Parameters
     ----------
-    task : Task
-        Changed in place; `gone` must have room for ``SLICE // SCORES_PER_FLIP`` more pairs.
+    state : GreedyState
+        Changed in place; `tabu` must have room for ``WORK_PER_CALL // SCORES_PER_FLIP`` more pairs.
     progress : Progress
         Where to go on.
-    cost_reduction : callable
-        The energy: a jitted function as `gain_of` takes it.
 
     Returns
     -------
@@ -133,67 +146,70 @@ def advance(task, progress, cost_reduction):
         The fields of the new Progress. Not a Progress itself: Numba would call its Python class to
         make one, and an interrupt that is served inside that call crashes the interpreter.
     """
-    mesh, queue = task.mesh, task.queue
+    mesh, queue, rules = state.mesh, state.queue, state.rules
     scored, flips, gain, _ = progress
     if scored < len(mesh.origin):
-        stop = min(scored + SLICE, len(mesh.origin))
+        stop = min(scored + WORK_PER_CALL, len(mesh.origin))
         for h in range(scored, stop):
             if h < mesh.twin[h]:
-                update(queue, h, rescoring.rank(mesh, h, task.rules, cost_reduction))
+                update(queue, h, scoring.rank(mesh, h, rules, energy.cost_reduction))
         return stop, flips, gain, WORKING
     work = 0
-    while work < SLICE:
+    while work < WORK_PER_CALL:
         if queue.size[0] == 0:
             return scored, flips, gain, CONVERGED
         h = first(queue)
-        keep_away = _must_stay_away(task, h)
-        is_back = keep_away and brings_back(mesh, task.gone, h)
-        task.kept_away[0] |= is_back
-        if is_back or not makes_new_edge(mesh, h) or is_blocked(task, h):
+        becomes_tabu = _becomes_tabu(state, h)
+        comes_back = becomes_tabu and is_tabu(mesh, state.tabu, h)
+        state.tabu_hit[0] |= comes_back
+        is_refused = comes_back or refusal(mesh, h, rules) != ALLOWED
+        if is_refused or is_blocked(state, h, ANY_ROUND):
             update(queue, h, NEVER)
             work += SCORES_PER_FLIP
             continue
-        if flips == task.rules.maxflips:
+        if flips == rules.maxflips:
             return scored, flips, gain, STOPPED
-        if keep_away:
-            insert(task.gone, mesh.origin[h], mesh.origin[mesh.twin[h]])
+        if becomes_tabu:
+            insert(state.tabu, mesh.origin[h], mesh.origin[mesh.twin[h]])
         flips += 1
-        gain += gain_of(cost_reduction, mesh, h, task.rules)
-        work += _flip(task, h, cost_reduction)
+        gain += scoring.gain_of(energy.cost_reduction, mesh, h, rules)
+        work += _flip(state, h, energy.cost_reduction)
     return scored, flips, gain, WORKING
 
 
-def run(kernel, mesh, rules, space=None):
+def run(kernels, mesh, rules, bvh=None, settings=DEFAULTS):
     """Flip edges of `mesh` in place until no allowed flip helps, or the limit is reached.
 
-    The kernel works in slices, so that an interrupt is served between two of them.
+    All searches have these parameters and this result.
 
     Parameters
     ----------
-    kernel : callable
-        `advance` for one energy, from `meshlab_willmore.search.entries`.
+    kernels : Kernels
+        From `meshlab_willmore.search.compiled`, for one energy.
     mesh : Mesh
     rules : Rules
-    space : Bvh, optional
+    bvh : Bvh, optional
         The guard against self-intersections, up to date with the mesh, and so it stays. None: there
         is no such guard.
+    settings : Settings
+        What single searches ask for; not this one.
 
     Returns
     -------
     Progress
         Its state is `CONVERGED` or `STOPPED`.
     """
-    space = inactive_bvh() if space is None else space
-    waiting, queue = nothing_waits(len(space.order)), empty_queue(len(mesh.origin))
+    bvh = inactive_bvh() if bvh is None else bvh
+    watch_lists, queue = empty_watch_lists(len(bvh.order)), empty_heap(len(mesh.origin))
     progress = Progress(0, 0, 0.0, WORKING)
     for _ in range(MOST_PASSES):
-        flips, kept_away = progress.flips, np.zeros(1, np.bool_)
-        task = Task(mesh, queue, no_pairs(), rules, space, waiting, kept_away)
+        flips, tabu_hit = progress.flips, np.zeros(1, np.bool_)
+        state = GreedyState(mesh, queue, empty_pair_set(), rules, bvh, watch_lists, tabu_hit)
         progress = progress._replace(scored=0, state=WORKING)
         while progress.state == WORKING:
-            task = task._replace(gone=reserve(task.gone, SLICE // SCORES_PER_FLIP))
-            progress = Progress(*kernel(task, progress))
+            state = state._replace(tabu=reserve(state.tabu, WORK_PER_CALL // SCORES_PER_FLIP))
+            progress = Progress(*kernels.greedy(state, progress))
             report(f"greedy, {progress.flips} flips, {queue.size[0]} edges left")
-        if is_final(rules, progress, flips, kept_away):
+        if is_finished(rules, progress, flips, tabu_hit):
             break
     return progress

@@ -2,100 +2,223 @@
 
     score every edge
     while there is an edge that may be flipped and helps (a candidate):
-        find the peaks: candidates of a larger cost reduction than all 12 edges around them
-        flip all peaks that connectivity, guards and the rules of `greedy` allow
-        score the edges that these flips have touched
+        find the local maxima: candidates of a larger cost reduction than all 12 edges around them
+        flip all maxima that connectivity, guards and the rules of `greedy` allow
+        score the edges that these flips have changed
 
-Two edges conflict if a flip of one changes what the cost reduction of the other is computed from:
-the two faces at it, and the four outside. Each edge of these six faces, 13 in all with the edge
-itself, has the other one among its own 13. Equal gains go by number, so of two that conflict at
-most one is a peak, and there is always a peak. The peaks of a round change nothing that another one
-reads: in whatever order they are flipped, each has the cost reduction that it was chosen for. So a
-round is a piece of a run of single flips, ordered by gain only where gains matter to each other,
-and it ends for the reasons that `greedy` gives. (For an energy whose cost reduction looks round
-whole corners, of the peaks with a common corner only the first is flipped.) What the whole mesh
-decides, that k-l is no edge yet and that no face is cut, is asked of every peak before the round.
+It is the usual way to find an independent set in parallel (M. Luby, "A simple parallel algorithm
+for the maximal independent set problem", 1986, DOI 10.1137/0215074; M. T. Jones and P. E.
+Plassmann, "A parallel graph coloring heuristic", 1993, DOI 10.1137/0914041). Two edges conflict if
+a flip of one changes what the cost reduction of the other is computed from: the two faces at it,
+and the four outside. Each edge of these six faces, 13 in all with the edge itself, has the other
+one among its own 13. Equal gains go by number, so of two that conflict at most one is a maximum,
+and there is always a maximum. The maxima of a round change nothing that another one reads: in
+whatever order they are flipped, each has the cost reduction that it was chosen for. So a round is a
+piece of a run of single flips, ordered by gain only where gains matter to each other, and it ends
+for the reasons that `greedy` gives. (For an energy whose cost reduction looks round whole corners,
+of the maxima with a common corner only the first is flipped.) What the whole mesh decides, that k-l
+is no edge yet and that no face is cut, is asked of every maximum before the round.
 
 **Why no edge is made twice.** After some flips of a round, the edges of the mesh are among those
-before the round and those that these flips have made. k-l is none of the former, or the peak would
-have been refused. One of the latter it can be only if another peak makes the same edge. Such peaks
-are *contested*: they are flipped after all others, one by one, and each is asked again on the mesh
-as it is then. What was refused before the round is never flipped in it, although a flip may free
-it: it waits for what was in its way, and is scored for the next round. The same holds for cuts: the
-faces are those before the round and those that its flips make, and who would cut one of the latter
-is contested. The order of the peaks does not depend on how the work was shared. So the result is
-the same, bit for bit, for any number of threads.
+before the round and those that these flips have made. k-l is none of the former, or the maximum
+would have been refused. One of the latter it can be only if another maximum makes the same edge.
+Such maxima are *contested*: they are flipped after all others, one by one, and each is asked again
+on the mesh as it is then. What was refused before the round is never flipped in it, although a flip
+may free it: its new edge and its new faces were compared with nobody's. It is blocked by an edge or
+a face, and is scored for the next round once that changes. The same holds for cuts: the faces are
+those before the round and those that its flips make, and who would cut one of the latter is
+contested. The order of the maxima does not depend on how the work was shared. So the result is the
+same, bit for bit, for any number of threads.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from ..guards.bvh import inactive_bvh, specialized
-from ..guards.intersections import ANY_ROUND, blocking_face
+from ..guards.bvh import expand, inactive_bvh, specialized
+from ..guards.intersections import ANY_ROUND, intersects_another_flip
 from ..mesh.halfedge import apex, flip, makes_new_edge
 from ..mesh.jit import at, inner, jit
 from ..mesh.notify import report
 from ..mesh.parallel import thread_pool
-from . import lists, peaks
-from .board import board_of, forbid
-from .pairs import insert, reserve
-from .peaks import FOLDS, IS_BLOCKED, IS_JOINED, IS_PEAK, Look
+from . import rounds, stencil
+from .containers import insert, reserve
+from .rounds import Candidates, forbid, in_chunks, initial_state
 from .rules import (
+    ALLOWED,
     CONVERGED,
+    DEFAULTS,
+    FOLDS,
+    INTERSECTS,
+    JOINED,
     MOST_PASSES,
     STOPPED,
     WORKING,
     Progress,
-    brings_back,
-    is_final,
-    must_wait,
+    is_blocked,
+    is_finished,
+    is_tabu,
+    refusal_by_all,
 )
 
-NO_VERDICT = np.empty(0, np.int8)
+# Beside the reasons of `rules.refusal`: a neighbour goes first.
+NO_MAXIMUM = -1
+HALF_BITS, MOST_PLACES = 32, 2**32 - 1
 # Edges around one that changed, about.
-WATCHED_PER_CHANGE = 13
+ACTIVE_PER_CHANGE = 13
+
+# --- the maxima of a round -----------------------------------------------------------------------
+
+
+@jit
+def find_maxima(candidates, start, stop):
+    """Write what becomes of the candidates from `start` up to `stop` into `verdict`."""
+    state = candidates.state
+    for place in range(start, stop):
+        h = candidates.edges[at(place)]
+        verdict = NO_MAXIMUM
+        if not stencil.visit_ring(state, h, rounds.goes_before, h):
+            verdict = refusal_by_all(state.mesh, state.bvh, h, state.rules)
+        candidates.verdict[at(place)] = verdict
+
+
+class Contest(NamedTuple):
+    """Maxima of round `number`, and a mark for each that another one may be in the way of."""
+
+    candidates: Candidates
+    contested: np.ndarray
+    number: int
+
+
+@jit
+def _contest_edges(contest):
+    """Mark, in place, the maxima that may become the same edge as another one."""
+    candidates, contested, number = contest
+    state, mesh = candidates.state, candidates.state.mesh
+    for place in range(len(candidates.edges)):
+        if candidates.verdict[place] != ALLOWED:
+            continue
+        h = candidates.edges[place]
+        lower = at(min(apex(mesh, h), apex(mesh, mesh.twin[at(h)])))
+        before = state.new_edge[lower]
+        if before >> HALF_BITS == number:
+            contested[place] = contested[before & MOST_PLACES] = True
+        else:
+            state.new_edge[lower] = (np.int64(number) << HALF_BITS) | place
+
+
+@jit
+def _announce(candidates, number):
+    """Let the BVH know what the maxima of round `number` would change."""
+    state, mesh = candidates.state, candidates.state.mesh
+    for place in range(len(candidates.edges)):
+        if candidates.verdict[at(place)] == ALLOWED:
+            h = np.int64(candidates.edges[at(place)])
+            expand(mesh, state.bvh, h, number)
+            state.to_flip[at(h // 3)] = state.to_flip[at(mesh.twin[at(h)] // 3)] = h
+
+
+@jit
+def _contest_faces(contest, start, stop):
+    """Mark, in place, the maxima of a range whose new faces would cut those of others."""
+    candidates, state = contest.candidates, contest.candidates.state
+    for place in range(start, stop):
+        if candidates.verdict[at(place)] == ALLOWED:
+            h = np.int64(candidates.edges[at(place)])
+            if intersects_another_flip(state.mesh, state.bvh, h, contest.number, state.to_flip):
+                contest.contested[at(place)] = True
+
+
+def _contested(candidates, number, all_are, parallel_for):
+    """Return which maxima may be in each other's way, or all."""
+    contest = Contest(candidates, np.full(len(candidates.edges), all_are), number)
+    if candidates.state.bvh.active:
+        _announce(candidates, number)
+    if not all_are:
+        _contest_edges(contest)
+        if candidates.state.bvh.active:
+            parallel_for(_contest_faces, contest, len(contest.contested))
+    return contest.contested
+
+
+def in_order(candidates, number, flips, parallel_for):
+    """Return the maxima in the order in which they are to be flipped.
+
+    Where maxima can be in each other's way, the larger gain goes first.
+
+    Parameters
+    ----------
+    candidates : Candidates
+        After `find_maxima`.
+    number : int
+        Number of this round.
+    flips : int
+        How many there were before.
+    parallel_for : callable
+        From `meshlab_willmore.mesh.parallel`.
+
+    Returns
+    -------
+    maxima : Candidates
+        First those that must not be flipped, then the others.
+    first : int
+        The place from which on it has to be asked whether a flip is still allowed.
+    """
+    state = candidates.state
+    places = np.flatnonzero(candidates.verdict != NO_MAXIMUM)
+    maxima = Candidates(state, candidates.edges[places], candidates.verdict[places])
+    is_allowed = maxima.verdict == ALLOWED
+    are_many = flips + np.count_nonzero(is_allowed) > state.rules.maxflips
+    contested = _contested(maxima, number, state.rules.is_wide or are_many, parallel_for)
+    late = np.flatnonzero(is_allowed & contested)
+    edges = maxima.edges[late]
+    numbers = edges.astype(np.uint64) * rounds.SCRAMBLER & rounds.LOW_BITS
+    late = late[np.lexsort((numbers, -state.rank[edges]))]
+    early = np.flatnonzero(~is_allowed), np.flatnonzero(is_allowed & ~contested)
+    order = np.concatenate([*early, late])
+    return Candidates(state, maxima.edges[order], maxima.verdict[order]), len(order) - len(late)
+
+
+# --- flips ---------------------------------------------------------------------------------------
 
 
 @inner
-def _take_corners(board, h):
-    """Take the corners of the diamond of `h`, unless one of them is taken; tell whether."""
-    mesh, t = board.mesh, board.mesh.twin[h]
+def _take_corners(state, h):
+    """Take the corners of the diamond of `h`; False, and none is taken, if one was before."""
+    mesh, t = state.mesh, state.mesh.twin[h]
     corners = (mesh.origin[h], mesh.origin[t], apex(mesh, h), apex(mesh, t))
     for v in corners:
-        if board.taken[v]:
+        if state.taken[v]:
             return False
     for v in corners:
-        board.taken[v] = True
+        state.taken[v] = True
     return True
 
 
 @inner
-def _is_refused(board, h, verdict, is_contested, number):
-    """Tell whether the edge `h` must not be flipped, and if so, let it wait for what is in its way.
+def _is_refused(state, h, verdict, is_contested, number):
+    """Whether the edge `h` must not be flipped; if so, note what blocks it.
 
-    The verdict tells how that was before the round. Only what is contested is asked again.
+    The verdict says how that was before the round. Only what is contested is asked again.
     """
-    mesh = board.mesh
-    is_joined = verdict == IS_JOINED or (is_contested and not makes_new_edge(mesh, h))
+    mesh = state.mesh
+    is_joined = verdict == JOINED or (is_contested and not makes_new_edge(mesh, h))
     if is_joined:
-        insert(board.awaited, apex(mesh, h), apex(mesh, mesh.twin[at(h)]))
+        insert(state.blocking, apex(mesh, h), apex(mesh, mesh.twin[at(h)]))
     if is_joined or verdict == FOLDS:
         return True
-    if verdict == IS_BLOCKED:
+    if verdict == INTERSECTS:
         # Nothing was flipped yet in this round, so that the face is still there.
-        must_wait(board, h, blocking_face(mesh, board.space, h, ANY_ROUND))
+        is_blocked(state, h, ANY_ROUND)
         return True
-    if board.is_tie[at(h)] and brings_back(mesh, board.gone, h):
-        board.kept_away[0] = True
+    if state.is_tie[at(h)] and is_tabu(mesh, state.tabu, h):
+        state.tabu_hit[0] = True
         return True
-    if not is_contested:
-        return False
-    return must_wait(board, h, blocking_face(mesh, board.space, h, number))
+    return is_contested and is_blocked(state, h, number)
 
 
-class Done(NamedTuple):
-    """How many peaks were flipped and refused, the cost reductions of the flips, the state."""
+class RoundResult(NamedTuple):
+    """How many maxima were flipped and refused, the cost reductions of the flips, the state."""
 
     flipped: int
     refused: int
@@ -104,13 +227,13 @@ class Done(NamedTuple):
 
 
 @jit
-def flip_peaks(look, start, stop, first, left, number, done):
-    """Flip the peaks from `start` up to `stop` that are allowed.
+def flip_maxima(maxima, start, stop, first, left, number, done):
+    """Flip the maxima from `start` up to `stop` that are allowed.
 
     Parameters
     ----------
-    look : Look
-        From `peaks.in_order`; `gone` and `awaited` of its board must have room for all of them.
+    maxima : Candidates
+        From `in_order`; `tabu` and `blocking` of its state must have room for all of them.
     start, stop, first : int
         `first` as from there.
     left : int
@@ -118,125 +241,105 @@ def flip_peaks(look, start, stop, first, left, number, done):
     number : int
         Number of the round.
     done : tuple
-        The fields of what was done in this round before, as Done.
+        The fields of the RoundResult before.
 
     Returns
     -------
     tuple
-        The fields of Done, these peaks included.
+        The fields of the RoundResult, these maxima included.
     """
-    board, mesh, rules = look.board, look.board.mesh, look.board.rules
-    flipped, refused, gain, state = done
+    state, mesh, rules = maxima.state, maxima.state.mesh, maxima.state.rules
+    flipped, refused, gain, outcome = done
     for place in range(start, stop):
-        h, verdict = np.int64(look.edges[at(place)]), look.verdict[at(place)]
+        h, verdict = np.int64(maxima.edges[at(place)]), maxima.verdict[at(place)]
         # Of most nothing is to be asked any more.
-        is_settled = verdict == IS_PEAK and place < first and not board.is_tie[at(h)]
-        if not is_settled and _is_refused(board, h, verdict, place >= first, number):
-            forbid(board, h)
+        is_settled = verdict == ALLOWED and place < first and not state.is_tie[at(h)]
+        if not is_settled and _is_refused(state, h, verdict, place >= first, number):
+            forbid(state, h)
             refused += 1
-            board.done[at(len(board.done) - refused)] = h
+            state.done[at(len(state.done) - refused)] = h
             continue
         if flipped == left:
             return flipped, refused, gain, STOPPED
-        if rules.is_wide and not _take_corners(board, h):
+        if rules.is_wide and not _take_corners(state, h):
             continue
-        if board.is_tie[at(h)]:
-            insert(board.gone, mesh.origin[h], mesh.origin[mesh.twin[h]])
-        gain += board.gain[at(h)]
+        if state.is_tie[at(h)]:
+            insert(state.tabu, mesh.origin[h], mesh.origin[mesh.twin[h]])
+        gain += state.gain[at(h)]
         flip(mesh, h)
-        board.done[at(flipped)] = h
+        state.done[at(flipped)] = h
         flipped += 1
-    return flipped, refused, gain, state
+    return flipped, refused, gain, outcome
 
 
-def _flip_all(board, chosen, first, left, number):
-    """Flip all peaks that are allowed; return the board, and what was done."""
-    done = Done(0, 0, 0.0, WORKING)
-    for start in range(0, len(chosen.edges), lists.SLICE):
-        board = board._replace(
-            gone=reserve(board.gone, lists.SLICE), awaited=reserve(board.awaited, lists.SLICE)
+def _flip_all(maxima, first, left, number):
+    """Flip all maxima that are allowed; return the state, and what was done."""
+    state, done = maxima.state, RoundResult(0, 0, 0.0, WORKING)
+    for start in range(0, len(maxima.edges), rounds.CHUNK):
+        state = state._replace(
+            tabu=reserve(state.tabu, rounds.CHUNK), blocking=reserve(state.blocking, rounds.CHUNK)
         )
-        stop = min(start + lists.SLICE, len(chosen.edges))
-        done = Done(
-            *flip_peaks(chosen._replace(board=board), start, stop, first, left, number, tuple(done))
-        )
+        stop = min(start + rounds.CHUNK, len(maxima.edges))
+        maxima = maxima._replace(state=state)
+        done = RoundResult(*flip_maxima(maxima, start, stop, first, left, number, tuple(done)))
         if done.state == STOPPED:
             break
-    return board, done
+    return state, done
 
 
-def _watch_around(board, touched, refused):
-    """Return those of which a neighbour, or they themselves, changed in the last round."""
-    changed = np.concatenate([board.touched[:touched], board.done[len(board.done) - refused :]])
-    size = lists.in_slices(lists.watch, Look(board, changed, NO_VERDICT), len(changed), 0)
-    watched = board.watched[:size].copy()
-    board.is_watched[watched] = False
-    return watched
+# --- the search ----------------------------------------------------------------------------------
 
 
-def _possible_peaks(board, touched, refused, candidates):
-    """Return the candidates that may be peaks, and the new length of their list.
+def _possible_maxima(state, dirty, refused, ranked):
+    """Return the edges that may be maxima, and the new length of the list of the ranked.
 
-    Who was no peak, and around whom nothing changed, is none now. Where much changed, it is quicker
-    to look at all.
+    Who was no maximum, and around whom nothing changed, is none now. Where much changed, it is
+    quicker to look at all.
     """
-    if WATCHED_PER_CHANGE * (touched + refused) < candidates:
-        watched = _watch_around(board, touched, refused)
-        if len(watched):
-            return watched, candidates
-    candidates = lists.in_slices(lists.drop_candidates, board, candidates, 0)
-    return board.candidates[:candidates], candidates
+    if ACTIVE_PER_CHANGE * (dirty + refused) < ranked:
+        changed = np.concatenate([state.dirty[:dirty], state.done[len(state.done) - refused :]])
+        active = rounds.active_around(state, changed)
+        if len(active):
+            return active, ranked
+    ranked = in_chunks(rounds.compact_ranked, state, ranked, 0)
+    return state.ranked[:ranked], ranked
 
 
-def run(kernel, mesh, rules, space=None, threads=None):
+def run(kernels, mesh, rules, bvh=None, settings=DEFAULTS):
     """Flip edges of `mesh` in place until no allowed flip helps, or the limit is reached.
 
-    Parameters
-    ----------
-    kernel : callable
-        `score_each` or `score_in_lanes` for one energy, from `meshlab_willmore.search.entries`.
-    mesh : Mesh
-    rules : Rules
-    space : Bvh, optional
-        As for `meshlab_willmore.search.greedy.run`.
-    threads : int, optional
-        As many as Numba is set to if left out. The result does not depend on it.
-
-    Returns
-    -------
-    Progress
-        Its state is `CONVERGED` or `STOPPED`.
+    Parameters and result are those of `meshlab_willmore.search.greedy.run`.
     """
-    space = specialized(inactive_bvh() if space is None else space)
+    bvh = specialized(inactive_bvh() if bvh is None else bvh)
     progress = Progress(len(mesh.origin), 0, 0.0, WORKING)
-    with thread_pool(threads) as share:
+    with thread_pool(settings.threads) as parallel_for:
         for _ in range(MOST_PASSES):
-            flips, board = progress.flips, board_of(mesh, rules, space)
-            progress = _make_rounds(kernel, board, progress, share)
-            if is_final(rules, progress, flips, board.kept_away):
+            flips, state = progress.flips, initial_state(mesh, rules, bvh)
+            progress = _make_rounds(kernels.score, state, progress, parallel_for)
+            if is_finished(rules, progress, flips, state.tabu_hit):
                 break
     return progress
 
 
-def _make_rounds(kernel, board, progress, share):
+def _make_rounds(score, state, progress, parallel_for):
     """Make rounds of flips until no allowed flip helps, or the limit is reached."""
-    touched, refused, candidates, number = len(board.touched), 0, 0, 0
+    dirty, refused, ranked, number = len(state.dirty), 0, 0, 0
     while True:
         number += 1
-        share(kernel, board, touched)
-        candidates = lists.in_slices(lists.add_candidates, board, touched, candidates)
-        edges, candidates = _possible_peaks(board, touched, refused, candidates)
+        parallel_for(score, state, dirty)
+        ranked = in_chunks(rounds.add_ranked, state, dirty, ranked)
+        edges, ranked = _possible_maxima(state, dirty, refused, ranked)
         if not len(edges):
             return progress._replace(state=CONVERGED)
-        look = Look(board, edges, np.empty(len(edges), np.int8))
-        share(peaks.find_peaks, look, len(edges))
-        chosen, first = peaks.in_order(look, number, progress.flips, share)
-        left = board.rules.maxflips - progress.flips
-        board, done = _flip_all(board, chosen, first, left, number)
+        candidates = Candidates(state, edges, np.empty(len(edges), np.int8))
+        parallel_for(find_maxima, candidates, len(edges))
+        maxima, first = in_order(candidates, number, progress.flips, parallel_for)
+        left = state.rules.maxflips - progress.flips
+        state, done = _flip_all(maxima, first, left, number)
         flips, gain = progress.flips + done.flipped, progress.gain + done.gain
         progress = Progress(progress.scored, flips, gain, done.state)
         report(f"round {number}, {flips} flips, {len(edges)} edges left")
         if done.state == STOPPED:
             return progress
         refused = done.refused
-        touched = lists.touch_all(board, done.flipped, share)
+        dirty = rounds.list_dirty(state, done.flipped, parallel_for)

@@ -47,7 +47,7 @@ class Region(NamedTuple):
     frozen: np.ndarray
 
 
-class _Work(NamedTuple):
+class _Searches(NamedTuple):
     """What is to be done: the search, its regions, what it returned, and whether to stop."""
 
     search: object
@@ -57,7 +57,7 @@ class _Work(NamedTuple):
 
 
 def is_large(mesh):
-    """Tell whether it pays to split a mesh."""
+    """Whether it pays to split a mesh."""
     return len(mesh.origin) // 3 >= 2 * LEAST_FACES
 
 
@@ -81,12 +81,12 @@ def run(search, mesh, threads=None):
         The vertices of the faces that had to stay.
     """
     parts = _split(mesh)
-    is_shared = _shared_vertices(mesh, parts)
-    regions = [_region(mesh, part, is_shared) for part in parts]
-    work = _Work(search, regions, [None] * len(parts), [])
-    with thread_pool(threads) as share:
+    is_common = _common_vertices(mesh, parts)
+    regions = [_region(mesh, part, is_common) for part in parts]
+    work = _Searches(search, regions, [None] * len(parts), [])
+    with thread_pool(threads) as parallel_for:
         try:
-            share(_search, work, len(parts), chunk=1)
+            parallel_for(_search, work, len(parts), chunk=1)
         except BaseException:
             work.halted.append(True)
             raise
@@ -124,26 +124,26 @@ def _halves(part, middles):
     return part[order[:place]], part[order[place:]]
 
 
-def _shared_vertices(mesh, parts):
+def _common_vertices(mesh, parts):
     """Return the mask of the vertices with faces of several parts."""
     owner = np.empty(len(mesh.origin) // 3, np.int32)
     for number, part in enumerate(parts):
         owner[part] = number
     owner = np.repeat(owner, 3)
-    last, is_shared = np.empty(len(mesh.vertices), np.int32), np.zeros(len(mesh.vertices), np.bool_)
+    last, is_common = np.empty(len(mesh.vertices), np.int32), np.zeros(len(mesh.vertices), np.bool_)
     last[mesh.origin] = owner
-    is_shared[mesh.origin[last[mesh.origin] != owner]] = True
-    return is_shared
+    is_common[mesh.origin[last[mesh.origin] != owner]] = True
+    return is_common
 
 
-def _region(mesh, part, is_shared):
+def _region(mesh, part, is_common):
     faces = faces_of(mesh)[part]
     vertices, local = np.unique(faces, return_inverse=True)
     local = local.reshape(-1, 3).astype(np.int32)
     half_edges = _half_edges(part)
     own = build(mesh.vertices[vertices], local)
     own = own._replace(corner=mesh.corner[half_edges], locked=mesh.locked[half_edges], uv=mesh.uv)
-    frozen = is_shared[faces].any(axis=1)
+    frozen = is_common[faces].any(axis=1)
     kept = np.flatnonzero(np.repeat(frozen, 3))
     own.locked[kept] = True
     twins = own.twin[kept]

@@ -1,18 +1,22 @@
-"""What searches have in common: the rules of a run, how far it is, when a flip is refused."""
+"""What the searches have in common: options, progress, and when a flip is refused."""
 
 from typing import NamedTuple
 
 from .. import guards
-from ..guards.intersections import ANY_ROUND, blocking_face
-from ..mesh.halfedge import NONE, apex
-from ..mesh.jit import inner
-from .pairs import contains
-from .waiting import wait
+from ..guards.intersections import blocking_face, would_intersect
+from ..mesh.halfedge import NONE, apex, makes_new_edge
+from ..mesh.jit import generic, inner
+from .containers import contains, watch
 
 WORKING, CONVERGED, STOPPED = range(3)
+# Why a flip is refused.
+ALLOWED, FOLDS, JOINED, INTERSECTS = range(4)
 NO_LIMIT = 2**62
 # Ties that go round in circles are made this often.
 MOST_PASSES = 10
+# Scored edges, or tried flips, of one call of a kernel: some hundredths of a second. Interrupts are
+# served between two calls.
+WORK_PER_CALL = 40_000
 
 
 class Rules(NamedTuple):
@@ -50,6 +54,65 @@ class Rules(NamedTuple):
     virtualpoint: float = 0.5
 
 
+class ChainLimits(NamedTuple):
+    """How far chains of flips go.
+
+    Attributes
+    ----------
+    depth : int
+        Most flips of a chain, at least 1.
+    breadth : int
+        Number of edges, 1 to 12, that are tried for the second flip of a chain; half as many,
+        rounded up, for the third, and so on. 1: chains do not branch.
+    """
+
+    depth: int = 5
+    breadth: int = 3
+
+
+class Schedule(NamedTuple):
+    """How the temperature of the annealing falls.
+
+    Attributes
+    ----------
+    sweeps : int
+        Number of temperatures, at least 1; at each, as many flips are tried as there are edges.
+    seed : int
+        Of the random numbers, at least 0.
+    hot, cold : float
+        First and last temperature, as multiples of the median loss of a flip.
+    """
+
+    sweeps: int = 200
+    seed: int = 0
+    hot: float = 0.3
+    cold: float = 0.05
+
+
+class Settings(NamedTuple):
+    """What single searches ask for beside the rules.
+
+    Attributes
+    ----------
+    limits : ChainLimits
+        For "variable depth" and "thorough".
+    schedule : Schedule
+        For "annealing".
+    warm_starts : tuple of (Kernels, Rules)
+        For "thorough": the energies along which greedy descent makes one more start each.
+    threads : int or None
+        As many as Numba is set to if None. The result does not depend on it.
+    """
+
+    limits: ChainLimits = ChainLimits()
+    schedule: Schedule = Schedule()
+    warm_starts: tuple = ()
+    threads: int | None = None
+
+
+DEFAULTS = Settings()
+
+
 class Progress(NamedTuple):
     """How far a search is: half-edges scored at first, flips made, their cost reductions, state."""
 
@@ -59,8 +122,8 @@ class Progress(NamedTuple):
     state: int
 
 
-def is_final(rules, progress, flips, kept_away):
-    """Tell whether a greedy search is through, or has to go on with no edge kept away any more.
+def is_finished(rules, progress, flips, tabu_hit):
+    """Whether a greedy search is through; else it goes on with an empty tabu set.
 
     Parameters
     ----------
@@ -70,37 +133,55 @@ def is_final(rules, progress, flips, kept_away):
         At the end of a pass.
     flips : int
         How many there were before that pass.
-    kept_away : (1,) bool
-        Whether a flip was refused in that pass for an edge that must stay away.
+    tabu_hit : (1,) bool
+        Whether a flip was refused in that pass for an edge of the tabu set.
     """
     is_stuck = progress.state == STOPPED or progress.flips == flips
-    return is_stuck or not (rules.monotone and kept_away[0])
+    return is_stuck or not (rules.monotone and tabu_hit[0])
 
 
 @inner
-def brings_back(mesh, gone, h):
-    """Tell whether the flip of `h` makes an edge of `gone`, which has to stay away."""
-    return contains(gone, apex(mesh, h), apex(mesh, mesh.twin[h]))
+def refusal(mesh, h, rules):
+    """Return why the flip of `h`, which is free, is refused, or `ALLOWED`.
+
+    Searches ask whether an edge is free first, then for its cost reduction, then this.
+    """
+    if guards.folds(mesh, h, rules.fold):
+        return FOLDS
+    # Last, since it alone takes longer than O(1).
+    return ALLOWED if makes_new_edge(mesh, h) else JOINED
+
+
+@generic
+def refusal_by_all(mesh, bvh, h, rules):
+    """Return why the flip of `h`, which is free, is refused, also by the intersection guard."""
+    reason = refusal(mesh, h, rules)
+    if reason == ALLOWED and would_intersect(mesh, bvh, h):
+        return INTERSECTS
+    return reason
 
 
 @inner
-def is_blocked(task, h):
-    """Tell whether a new face would cut another one, and if so, wait until that changes.
+def is_tabu(mesh, tabu, h):
+    """Whether the flip of `h` makes an edge of the tabu set."""
+    return contains(tabu, apex(mesh, h), apex(mesh, mesh.twin[h]))
+
+
+@inner
+def is_blocked(task, h, since):
+    """Whether a new face would cut another one; if so, `h` watches that face.
 
     Parameters
     ----------
     task : namedtuple
-        Of it the mesh, its index `space` and the edges that are `waiting`.
+        Of it the mesh, its `bvh`, and the `watch_lists`.
     h : int
         Half-edge that may be flipped.
+    since : int
+        As for `meshlab_willmore.guards.intersections.blocking_face`.
     """
-    return must_wait(task, h, blocking_face(task.mesh, task.space, h, ANY_ROUND))
-
-
-@inner
-def must_wait(task, h, face):
-    """Let `h` wait until the face that blocks it changes, if there is one; tell whether."""
-    if not task.space.active or face == NONE:
+    face = blocking_face(task.mesh, task.bvh, h, since)
+    if not task.bvh.active or face == NONE:
         return False
-    wait(task.waiting, h, face)
+    watch(task.watch_lists, h, face)
     return True

@@ -1,41 +1,317 @@
-"""What a flip gains in a search: the one place that knows which numbers an energy asks for.
+"""What a flip gains: the rank of one edge in a queue, and the scores of many edges at once.
 
-An energy is a jitted function of a mesh and a half-edge. One that depends on where the virtual
-points stand takes their place as a third argument, which is a number of the rules, so that it is
-compiled once for all places. Numba looks at the function when it compiles a search, so nothing of
-the choice is left at run time.
+`rank` and `rescore` serve the greedy search, `score_each` and `score_batches` the greedy search in
+rounds. For each energy `meshlab_willmore.search.compiled` makes a copy of one of the last two.
+`score_batches` is for energies with a function `drop`. It gathers the coordinates that flips look
+at from all over the mesh into the rows of one small array, one lane an edge. On these the
+arithmetic runs without branches, calls and gathers, so that the compiler does several lanes in one
+instruction. Each lane gets the bits that a single edge would get: nothing is reordered.
 """
 
+from typing import NamedTuple
+
+import numpy as np
 from numba.extending import overload
+
+from ..energy import willmore
+from ..energy.angles import AngleSum, radians, rough
+from ..energy.sides import Outside, Sides
+from ..mesh.halfedge import NONE, Diamond, is_free
+from ..mesh.jit import at, generic, inlined, inner
+from ..mesh.points import Point
+from .containers import NEVER, update
+from .rounds import forbid
+from .rules import ALLOWED, refusal
+
+# What ranks the edges, and whether the Willmore energy is asked too (None: it is not):
+# `meshlab_willmore.search.compiled` puts the modules of each energy in these places.
+energy, judge = willmore, None
 
 PLACED = 3
 
 
-def gain_of(energy, mesh, h, rules):
-    """Return the cost reduction of `h`.
+def gain_of(cost_reduction, mesh, h, rules):
+    """Return the cost reduction of `h`, which has a twin.
 
-    Parameters
-    ----------
-    energy : callable
-        Jitted function of a mesh and a half-edge, and of `Rules.virtualpoint` if it has a third
-        parameter.
-    mesh : Mesh
-    h : int
-        Half-edge with a twin.
-    rules : Rules
-
-    Returns
-    -------
-    float
-        In the unit of the energy.
+    An energy that depends on where the virtual points are takes `Rules.virtualpoint` as a third
+    argument, so that it is compiled once for all places. Numba looks at the function when it
+    compiles a search, so nothing of the choice is left at run time.
     """
-    if energy.__code__.co_argcount == PLACED:
-        return energy(mesh, h, rules.virtualpoint)
-    return energy(mesh, h)
+    if cost_reduction.__code__.co_argcount == PLACED:
+        return cost_reduction(mesh, h, rules.virtualpoint)
+    return cost_reduction(mesh, h)
 
 
 @overload(gain_of)
-def _compiled_gain_of(energy, mesh, h, rules):
-    if energy.dispatcher.py_func.__code__.co_argcount == PLACED:
-        return lambda energy, mesh, h, rules: energy(mesh, h, rules.virtualpoint)
-    return lambda energy, mesh, h, rules: energy(mesh, h)
+def _compiled_gain_of(cost_reduction, mesh, h, rules):
+    if cost_reduction.dispatcher.py_func.__code__.co_argcount == PLACED:
+        return lambda cost_reduction, mesh, h, rules: cost_reduction(mesh, h, rules.virtualpoint)
+    return lambda cost_reduction, mesh, h, rules: cost_reduction(mesh, h)
+
+
+# --- one edge at a time --------------------------------------------------------------------------
+
+
+@generic
+def rank(mesh, h, rules, cost_reduction):
+    """Return the rank of `h` in the queue, or `NEVER` where it must not be flipped."""
+    if not is_free(mesh, h):
+        return NEVER
+    gain = gain_of(cost_reduction, mesh, h, rules)
+    if not gain > rules.tolerance:
+        return NEVER
+    if rules.monotone and willmore.cost_reduction(mesh, h) < -rules.tie:
+        return NEVER
+    return np.rint(gain / rules.rank_step) if refusal(mesh, h, rules) == ALLOWED else NEVER
+
+
+@generic
+def rescore(task, h, cost_reduction):
+    """Bring the queue up to date with the edge of `h`; its entry is under the lower twin."""
+    t = task.mesh.twin[h]
+    if t == NONE:
+        update(task.queue, h, NEVER)
+        return False
+    low, high = min(h, t), max(h, t)
+    update(task.queue, high, NEVER)
+    update(task.queue, low, rank(task.mesh, low, task.rules, cost_reduction))
+    return False
+
+
+@inner
+def _note(state, h, gain, change):
+    """Write down a cost reduction, and what the flip lowers the Willmore energy by."""
+    rules, t = state.rules, state.mesh.twin[at(h)]
+    is_allowed = gain > rules.tolerance and not (rules.monotone and change < -rules.tie)
+    rank = np.rint(gain / rules.rank_step) if is_allowed else NEVER
+    state.rank[at(h)] = state.rank[at(t)] = rank
+    if is_allowed:
+        state.gain[at(h)] = gain
+        loses = not rules.monotone or change <= 2.0 * rules.tie
+        state.is_tie[at(h)] = loses and not rules.is_potential
+
+
+def score_each(state, start, stop):
+    """Score the dirty edges from `start` up to `stop` one by one."""
+    mesh, rules = state.mesh, state.rules
+    for place in range(start, stop):
+        h = state.dirty[at(place)]
+        forbid(state, h)
+        if is_free(mesh, h):
+            gain = gain_of(energy.cost_reduction, mesh, h, rules)
+            if gain > rules.tolerance:
+                change = willmore.cost_reduction(mesh, h) if rules.monotone else 0.0
+                _note(state, h, gain, change)
+
+
+# --- batches -------------------------------------------------------------------------------------
+
+
+class Batch(NamedTuple):
+    """Edges in lanes: the rows of `empty_rows`, the edge of each lane, half of its gain if known.
+
+    Half of the gain is kept as what an `AngleSum` is made of, (LANES, 3): most are never needed.
+    """
+
+    rows: np.ndarray
+    edges: np.ndarray
+    gains: np.ndarray
+
+
+@inner
+def _empty_batch():
+    return Batch(empty_rows(), np.empty(LANES, np.int32), np.empty((LANES, 3)))
+
+
+@generic
+def _rank_batch(state, batch, count, energy, judge, helpful, waiting):
+    """Score the first `count` edges of a batch; judge those that help once a batch of them waits.
+
+    Returns
+    -------
+    int
+        How many wait, in the batch `helpful`; there were `waiting`.
+    """
+    find_drops(batch.rows, energy.drop)
+    for lane in range(count):
+        angles = drop_at(batch.rows, lane)
+        if not is_positive(angles):
+            continue
+        if judge is None:
+            _note(state, batch.edges[lane], 2.0 * radians(angles), 0.0)
+            continue
+        copy_lane(batch.rows, lane, helpful.rows, waiting)
+        helpful.edges[waiting], gain = batch.edges[lane], helpful.gains[waiting]
+        gain[0], gain[1], gain[2] = angles.r, angles.s, angles.half_turns
+        waiting += 1
+        if waiting == LANES:
+            _judge_batch(state, helpful, waiting, judge)
+            waiting = 0
+    return waiting
+
+
+@generic
+def _judge_batch(state, helpful, count, judge):
+    """Note the first `count` edges of a batch, of which the gain is known."""
+    find_drops(helpful.rows, judge.drop)
+    for lane in range(count):
+        change = 2.0 * rough(drop_at(helpful.rows, lane))
+        if not (state.rules.monotone and change < -state.rules.tie):
+            gain = helpful.gains[lane]
+            total = AngleSum(gain[0], gain[1], gain[2])
+            _note(state, helpful.edges[lane], 2.0 * radians(total), change)
+
+
+def score_batches(state, start, stop):
+    """Score the dirty edges from `start` up to `stop`, many at once."""
+    batch, helpful = _empty_batch(), _empty_batch()
+    # Of one type from the start, or the compiler would try several.
+    count, waiting = np.int64(0), np.int64(0)
+    for place in range(start, stop):
+        h = state.dirty[at(place)]
+        forbid(state, h)
+        if not is_free(state.mesh, h):
+            continue
+        fill(batch.rows, count, state.mesh, h)
+        batch.edges[count] = h
+        count += 1
+        if count == LANES:
+            waiting = _rank_batch(state, batch, count, energy, judge, helpful, waiting)
+            count = 0
+    waiting = _rank_batch(state, batch, count, energy, judge, helpful, waiting)
+    if judge is not None:
+        _judge_batch(state, helpful, waiting, judge)
+
+
+# --- rows and lanes ------------------------------------------------------------------------------
+
+LANES = 64
+# Rows: x, y, z of i, j, k, l and of the four points outside, whether these exist, the drop.
+_OUTSIDE = 12
+_EXISTS = 24
+_DROP = 28
+_ROWS = 31
+# Unsigned, as an index must be to spare the question whether it counts from the end.
+_ONE, _TWO, _THREE = np.uint64(1), np.uint64(2), np.uint64(3)
+
+
+@inlined
+def _following(h):
+    return h - _TWO if h % _THREE == _TWO else h + _ONE
+
+
+@inlined
+def _previous(h):
+    return h - _ONE if h % _THREE != np.uint64(0) else h + _TWO
+
+
+@inlined
+def _write(rows, row, lane, vertices, v):
+    p = np.uint64(v)
+    rows[np.uint64(row * LANES) + lane] = vertices[p, np.uint64(0)]
+    rows[np.uint64((row + 1) * LANES) + lane] = vertices[p, _ONE]
+    rows[np.uint64((row + 2) * LANES) + lane] = vertices[p, _TWO]
+
+
+@inlined
+def _write_outside(rows, place, lane, mesh, side):
+    t = mesh.twin[side]
+    exists = t != NONE
+    rows[np.uint64((_EXISTS + place) * LANES) + lane] = 1.0 if exists else 0.0
+    corner = _previous(np.uint64(t)) if exists else side
+    _write(rows, _OUTSIDE + 3 * place, lane, mesh.vertices, mesh.origin[corner])
+
+
+@inner
+def empty_rows():
+    """Return rows for `LANES` edges."""
+    return np.zeros(_ROWS * LANES)
+
+
+@inlined
+def fill(rows, place, mesh, half_edge):
+    """Write what the flip of `half_edge`, which has a twin, looks at into lane `place`."""
+    lane, h = np.uint64(place), np.uint64(half_edge)
+    t = np.uint64(mesh.twin[h])
+    j_k, k_i, i_l, l_j = _following(h), _previous(h), _following(t), _previous(t)
+    _write(rows, 0, lane, mesh.vertices, mesh.origin[h])
+    _write(rows, 3, lane, mesh.vertices, mesh.origin[t])
+    _write(rows, 6, lane, mesh.vertices, mesh.origin[k_i])
+    _write(rows, 9, lane, mesh.vertices, mesh.origin[l_j])
+    _write_outside(rows, 0, lane, mesh, j_k)
+    _write_outside(rows, 1, lane, mesh, k_i)
+    _write_outside(rows, 2, lane, mesh, i_l)
+    _write_outside(rows, 3, lane, mesh, l_j)
+
+
+@inlined
+def _point(rows, row, lane):
+    return Point(
+        rows[row * LANES + lane], rows[(row + 1) * LANES + lane], rows[(row + 2) * LANES + lane]
+    )
+
+
+@inlined
+def _quad(rows, lane):
+    return Diamond(
+        _point(rows, 0, lane), _point(rows, 3, lane), _point(rows, 6, lane), _point(rows, 9, lane)
+    )
+
+
+@inlined
+def _wing(rows, place, lane):
+    exists = rows[(_EXISTS + place) * LANES + lane] != 0.0
+    return Outside(_point(rows, _OUTSIDE + 3 * place, lane), exists)
+
+
+@inlined
+def _wings(rows, lane):
+    return Sides(
+        _wing(rows, 0, lane),
+        _wing(rows, 1, lane),
+        _wing(rows, 2, lane),
+        _wing(rows, 3, lane),
+    )
+
+
+@inlined
+def copy_lane(rows, lane, others, place):
+    """Copy a lane of `rows` to lane `place` of `others`."""
+    source, target = np.uint64(lane), np.uint64(place)
+    for row in range(_DROP):
+        first = np.uint64(row * LANES)
+        others[first + target] = rows[first + source]
+
+
+@generic
+def find_drops(rows, drop):
+    """Write the drop of each lane into the last three rows.
+
+    Parameters
+    ----------
+    rows : (rows,) float64
+        From `empty_rows`, filled; changed in place. Lanes that were not filled do no harm.
+    drop : callable
+        Jitted function of a Diamond and its Sides, as `meshlab_willmore.energy.willmore.drop`.
+    """
+    for lane in range(LANES):
+        angles = drop(_quad(rows, lane), _wings(rows, lane))
+        rows[_DROP * LANES + lane] = angles.r
+        rows[(_DROP + 1) * LANES + lane] = angles.s
+        rows[(_DROP + 2) * LANES + lane] = angles.half_turns
+
+
+@inlined
+def drop_at(rows, lane):
+    """Return the drop that `find_drops` has found for a lane, as an AngleSum."""
+    return AngleSum(
+        rows[_DROP * LANES + lane],
+        rows[(_DROP + 1) * LANES + lane],
+        rows[(_DROP + 2) * LANES + lane],
+    )
+
+
+@inlined
+def is_positive(angles):
+    """Whether a difference of two sums of angles is positive; not if it is undefined."""
+    return angles.half_turns > 0.0 or (angles.half_turns == 0.0 and angles.s > 0.0)

@@ -40,80 +40,81 @@ around them, may be one flip longer. There are few of them on smooth surfaces.
 
 import numpy as np
 
-from .. import guards
-from ..energy import delaunay
+from ..energy import delaunay, willmore
 from ..guards.bvh import inactive_bvh, refit
-from ..mesh.halfedge import apex, flip, is_free, makes_new_edge
-from ..mesh.jit import generic, inner, jit
+from ..mesh.halfedge import NONE, apex, flip, following, is_free
+from ..mesh.jit import inner, jit
 from ..mesh.notify import report
 from . import greedy, regions
-from .chains import Task, find_chain, no_chain, ring_around
-from .greedy import SLICE
-from .pending import append, nothing_pending, queue_all, queue_blocked, queue_near, take_first
-from .rules import CONVERGED, NO_LIMIT, STOPPED, WORKING, Progress
+from .chains import ChainState, empty_chain, find_chain, find_ring
+from .containers import empty_fifo, pop, push
+from .rules import (
+    ALLOWED,
+    CONVERGED,
+    DEFAULTS,
+    NO_LIMIT,
+    STOPPED,
+    WORK_PER_CALL,
+    WORKING,
+    Progress,
+    refusal,
+)
 
+# What ranks and what judges chains: `meshlab_willmore.search.compiled` puts the modules of each
+# energy in these places. A judge of None: the same as what ranks.
+energy, judge = willmore, None
 # What the harmonic index must gain by a flip to cast doubt on a place.
 DOUBT = 1e-7
 
+# --- the queue of starts -------------------------------------------------------------------------
+
 
 @inner
-def _keep(task, length):
-    """Flip the edges of the best prefix for good, and queue all edges around."""
-    mesh, chain = task.mesh, task.chain
-    for s in range(length):
-        h = chain.best[s]
-        for around in (h, mesh.twin[h]):
-            task.touched[mesh.origin[around]] = task.touched[apex(mesh, around)] = True
-        flip(mesh, h)
-        refit(mesh, task.space, h)
-        # A later flip of the chain moves edges to other half-edges, but queues all these as well.
-        append(mesh, task.pending, h)
-        for place in range(ring_around(mesh, h, chain.ring)):
-            append(mesh, task.pending, chain.ring[place])
+def _queue_edge(mesh, queue, h):
+    """Put the edge of `h` last into the queue, unless it has one face only."""
+    t = mesh.twin[h]
+    if t != NONE:
+        push(queue, min(h, t))
 
 
-@generic
-def advance(task, progress, ranking, judge):
-    """Go on with the search for about `SLICE` scored edges.
+@jit
+def queue_all(mesh, queue):
+    """Queue every edge, in the order of the half-edges."""
+    for h in range(len(mesh.origin)):
+        _queue_edge(mesh, queue, h)
 
-    Parameters
-    ----------
-    task : Task
-        Changed in place.
-    progress : Progress
-        Where to go on.
-    ranking, judge : callable
-        Jitted functions of a mesh and a half-edge, see above; `ranking` as
-        `meshlab_willmore.search.scoring.gain_of` takes it. A judge of None: `ranking` is also the
-        judge.
 
-    Returns
-    -------
-    tuple
-        The fields of the new Progress; converged is the state once the queue is empty.
-    """
-    mesh, pending = task.mesh, task.pending
-    scored, flips, gain, _ = progress
-    work = 0
-    while work < SLICE:
-        if pending.ends[1] == 0:
-            return scored, flips, gain, CONVERGED
-        h = take_first(pending)
-        # A flip has put another edge there, which waits under its own name.
-        if mesh.twin[h] < h:
-            continue
-        task.refused[0] = False
-        best, more = find_chain(task, h, ranking, judge)
-        work += more
-        if best.length == 0:
-            task.blocked[h] = task.refused[0]
-            continue
-        if flips + best.length > task.rules.maxflips:
-            return scored, flips, gain, STOPPED
-        _keep(task, best.length)
-        flips += best.length
-        gain += best.gain
-    return scored, flips, gain, WORKING
+@jit
+def _queue_near(mesh, queue, marked, hops):
+    """Queue every edge at most `hops` edges away from a marked vertex, and clear the marks."""
+    distance = np.where(marked, 0, hops + 1)
+    for hop in range(hops):
+        for h in range(len(mesh.origin)):
+            a, b = mesh.origin[h], mesh.origin[following(h)]
+            if distance[a] == hop:
+                distance[b] = min(distance[b], hop + 1)
+            elif distance[b] == hop:
+                distance[a] = min(distance[a], hop + 1)
+    for h in range(len(mesh.origin)):
+        if min(distance[mesh.origin[h]], distance[mesh.origin[following(h)]]) <= hops:
+            _queue_edge(mesh, queue, h)
+    marked[:] = False
+
+
+@jit
+def _queue_blocked(mesh, queue, blocked):
+    """Queue every edge that is marked, and clear the marks."""
+    for h in range(len(blocked)):
+        if blocked[h]:
+            _queue_edge(mesh, queue, h)
+    blocked[:] = False
+
+
+@inner
+def _mark_diamond(mesh, h, marked):
+    """Mark the four vertices of the diamond of `h`."""
+    for around in (h, np.int64(mesh.twin[h])):
+        marked[mesh.origin[around]] = marked[apex(mesh, around)] = True
 
 
 @jit
@@ -122,74 +123,109 @@ def _mark_doubtful(mesh, rules, doubtful):
     for h in range(len(mesh.origin)):
         if not (h < mesh.twin[h] and is_free(mesh, h)):
             continue
-        if not delaunay.cost_reduction(mesh, h) > DOUBT:
-            continue
-        if not guards.folds(mesh, h, rules.fold) and makes_new_edge(mesh, h):
-            for around in (h, np.int64(mesh.twin[h])):
-                doubtful[mesh.origin[around]] = doubtful[apex(mesh, around)] = True
+        if delaunay.cost_reduction(mesh, h) > DOUBT and refusal(mesh, h, rules) == ALLOWED:
+            _mark_diamond(mesh, h, doubtful)
 
 
-def _work_off(kernel, task, progress, halted):
-    """Go on slice by slice until the queue is empty, the limit is reached, or all is halted."""
-    progress = progress._replace(state=WORKING)
-    while progress.state == WORKING and not halted:
-        progress = Progress(*kernel(task, progress))
-        report(f"chains, {progress.flips} flips, {task.pending.ends[1]} edges left")
-    return progress
+# --- the search ----------------------------------------------------------------------------------
 
 
-def run(kernel, descent, mesh, rules, reach, space=None, threads=None):
-    """Flip edges of `mesh` in place until no allowed chain helps, or the limit is reached.
+@inner
+def _keep(state, length):
+    """Flip the edges of the best prefix for good, and queue all edges around."""
+    mesh, chain, queue = state.mesh, state.chain, state.queue
+    for s in range(length):
+        h = np.int64(chain.best[s])
+        _mark_diamond(mesh, h, state.changed)
+        flip(mesh, h)
+        refit(mesh, state.bvh, h)
+        # A later flip of the chain moves edges to other half-edges, but queues all these as well.
+        _queue_edge(mesh, queue, h)
+        for place in range(find_ring(state, h)):
+            _queue_edge(mesh, queue, chain.ring[place])
 
-    Large meshes are searched in regions first, on all cores; not with the guard against
-    self-intersections, which looks everywhere, or a limit.
+
+def advance(state, progress):
+    """Go on with the search for about `WORK_PER_CALL` scored edges.
 
     Parameters
     ----------
-    kernel : callable
-        `advance` for one energy, from `meshlab_willmore.search.entries`.
-    descent : callable
-        `meshlab_willmore.search.greedy.advance` for it, for the descent at the start.
-    mesh : Mesh
-    rules : Rules
-        A chain that would exceed `maxflips` is not made. Under the monotone rule no chain as a
-        whole raises the Willmore energy; its single flips may.
-    reach : Reach
-    space : Bvh, optional
-        As for `meshlab_willmore.search.greedy.run`. It holds for each flip of a chain.
-    threads : int, optional
-        As many as Numba is set to if left out. The result does not depend on it.
+    state : ChainState
+        Changed in place.
+    progress : Progress
+        Where to go on.
 
     Returns
     -------
-    Progress
-        Its state is `CONVERGED` or `STOPPED`.
+    tuple
+        The fields of the new Progress; converged is the state once the queue is empty.
     """
-    space = inactive_bvh() if space is None else space
-    progress = greedy.run(descent, mesh, rules, space)
+    mesh, queue = state.mesh, state.queue
+    scored, flips, gain, _ = progress
+    work = 0
+    while work < WORK_PER_CALL:
+        if queue.ends[1] == 0:
+            return scored, flips, gain, CONVERGED
+        h = pop(queue)
+        # A flip has put another edge there, which is queued under its own name.
+        if mesh.twin[h] < h:
+            continue
+        state.hit_cut[0] = False
+        best, more = find_chain(state, h, energy, judge)
+        work += more
+        if best.length == 0:
+            state.blocked[h] = state.hit_cut[0]
+            continue
+        if flips + best.length > state.rules.maxflips:
+            return scored, flips, gain, STOPPED
+        _keep(state, best.length)
+        flips += best.length
+        gain += best.gain
+    return scored, flips, gain, WORKING
+
+
+def _work_off(kernel, state, progress, halted):
+    """Go on call by call until the queue is empty, the limit is reached, or all is halted."""
+    progress = progress._replace(state=WORKING)
+    while progress.state == WORKING and not halted:
+        progress = Progress(*kernel(state, progress))
+        report(f"chains, {progress.flips} flips, {state.queue.ends[1]} edges left")
+    return progress
+
+
+def run(kernels, mesh, rules, bvh=None, settings=DEFAULTS):
+    """Flip edges of `mesh` in place until no allowed chain helps, or the limit is reached.
+
+    Parameters and result are those of `meshlab_willmore.search.greedy.run`. A chain that would
+    exceed `Rules.maxflips` is not made. Under the monotone rule no chain as a whole raises the
+    Willmore energy; its single flips may. Large meshes are searched in regions first, on all cores;
+    not with the guard against self-intersections, which looks everywhere, or a limit.
+    """
+    bvh = inactive_bvh() if bvh is None else bvh
+    progress = greedy.run(kernels, mesh, rules, bvh)
     if progress.state == STOPPED:
         return progress
-    touched = None
-    if regions.is_large(mesh) and not space.active and rules.maxflips == NO_LIMIT:
+    changed = None
+    if regions.is_large(mesh) and not bvh.active and rules.maxflips == NO_LIMIT:
 
         def search(part, halted):
             begin = Progress(len(part.origin), 0, 0.0, WORKING)
-            return _search(kernel, part, rules, reach, inactive_bvh(), begin, None, halted)
+            return _search(kernels, part, rules, bvh, settings.limits, begin, None, halted)
 
-        found, touched = regions.run(search, mesh, threads)
+        found, changed = regions.run(search, mesh, settings.threads)
         progress = _sum(progress, found)
-    progress = _search(kernel, mesh, rules, reach, space, progress, touched, [])
+    progress = _search(kernels, mesh, rules, bvh, settings.limits, progress, changed)
     # For a potential, a flip that is left would have been a chain.
     while progress.state == CONVERGED and rules.monotone:
         before, flips = mesh.origin.copy(), progress.flips
         left = rules._replace(maxflips=rules.maxflips - flips)
-        progress = _sum(progress, greedy.run(descent, mesh, left, space))
+        progress = _sum(progress, greedy.run(kernels, mesh, left, bvh))
         if progress.state == STOPPED or progress.flips == flips:
             break
         flips = progress.flips
         # With the guard, what these flips have freed may be anywhere.
-        touched = None if space.active else _moved_vertices(before, mesh)
-        progress = _search(kernel, mesh, rules, reach, space, progress, touched, [])
+        changed = None if bvh.active else _moved_vertices(before, mesh)
+        progress = _search(kernels, mesh, rules, bvh, settings.limits, progress, changed)
         if progress.flips == flips:
             break
     return progress
@@ -203,41 +239,42 @@ def _sum(one, other):
 def _moved_vertices(before, mesh):
     """Return the mask of the vertices of faces of which the origins were others `before`."""
     moved = np.repeat((before != mesh.origin).reshape(-1, 3).any(axis=1), 3)
-    touched = np.zeros(len(mesh.vertices), np.bool_)
-    touched[before[moved]] = touched[mesh.origin[moved]] = True
-    return touched
+    marked = np.zeros(len(mesh.vertices), np.bool_)
+    marked[before[moved]] = marked[mesh.origin[moved]] = True
+    return marked
 
 
-def _search(kernel, mesh, rules, reach, space, progress, touched, halted):
-    """Make chains until none helps, at first from all edges, or from those near touched vertices.
+def _search(kernels, mesh, rules, bvh, limits, progress, changed, halted=()):
+    """Make chains until none helps, at first from all edges, or from those near changed vertices.
 
     Chains that do not branch come first: they are cheap, and do most of the work.
     """
-    stages = dict.fromkeys((reach._replace(breadth=1), reach)) if touched is None else (reach,)
-    is_new = touched is None
-    touched = np.zeros(len(mesh.vertices), np.bool_) if is_new else touched
-    blocked, refused = np.zeros(len(mesh.origin), np.bool_), np.zeros(1, np.bool_)
-    pending = nothing_pending(mesh)
+    is_new = changed is None
+    stages = dict.fromkeys((limits._replace(breadth=1), limits)) if is_new else (limits,)
+    changed = np.zeros(len(mesh.vertices), np.bool_) if is_new else changed
+    blocked, hit_cut = np.zeros(len(mesh.origin), np.bool_), np.zeros(1, np.bool_)
+    queue = empty_fifo(len(mesh.origin))
     for stage in stages:
-        task = Task(mesh, pending, no_chain(stage), touched, rules, space, blocked, refused)
+        chain = empty_chain(stage)
+        state = ChainState(mesh, queue, chain, changed, rules, bvh, blocked, hit_cut)
         if is_new:
-            touched[:] = blocked[:] = False
-            queue_all(mesh, pending)
-            progress = _work_off(kernel, task, progress, halted)
+            changed[:] = blocked[:] = False
+            queue_all(mesh, queue)
+            progress = _work_off(kernels.depth, state, progress, halted)
             if progress.state == STOPPED:
                 return progress
-    deeper = task._replace(chain=no_chain(reach._replace(depth=reach.depth + 1)))
+    deeper = state._replace(chain=empty_chain(limits._replace(depth=limits.depth + 1)))
     doubtful = np.zeros(len(mesh.vertices), np.bool_)
     while True:
-        while progress.state == CONVERGED and touched.any():
-            queue_near(mesh, pending, touched, reach.depth + rules.is_wide)
-            queue_blocked(mesh, pending, blocked)
-            progress = _work_off(kernel, task, progress, halted)
+        while progress.state == CONVERGED and changed.any():
+            _queue_near(mesh, queue, changed, limits.depth + rules.is_wide)
+            _queue_blocked(mesh, queue, blocked)
+            progress = _work_off(kernels.depth, state, progress, halted)
         # Single flips are no chains: a depth of 1 is plain descent.
-        if progress.state != CONVERGED or reach.depth == 1:
+        if progress.state != CONVERGED or limits.depth == 1:
             return progress
         _mark_doubtful(mesh, rules, doubtful)
-        queue_near(mesh, pending, doubtful, 0)
-        progress = _work_off(kernel, deeper, progress, halted)
-        if progress.state != CONVERGED or not touched.any():
+        _queue_near(mesh, queue, doubtful, 0)
+        progress = _work_off(kernels.depth, deeper, progress, halted)
+        if progress.state != CONVERGED or not changed.any():
             return progress

@@ -63,8 +63,8 @@ def test_details_are_cut_last():
     status.detail("round 7, 52 flips")
     head = "scan.ply  [----------------]   0%  "
     assert status.line(80) == f"{head}meshing_edge_flip...: round 7, 52 flips, 0 s"
-    status.detail("compiling search.entries.greedy_willmore")
-    assert status.line(80) == f"{head}compiling search.entries.greedy_will..., 0 s"
+    status.detail("compiling search.greedy.advance_willmore")
+    assert status.line(80) == f"{head}compiling search.greedy.advance_will..., 0 s"
 
 
 @pytest.mark.parametrize("width", [200, 132, 80, 60, 41, 40, 39, 20, 10, 5, 3, 1])

@@ -9,7 +9,7 @@ import numpy as np
 from meshlab_willmore.measure import self_intersections
 from meshlab_willmore.mesh import parallel
 from meshlab_willmore.optimize import optimize_flips
-from meshlab_willmore.search import lists, parallel_greedy, regions
+from meshlab_willmore.search import parallel_greedy, regions, rounds
 
 from . import energies, promise
 from .choices import random_options
@@ -72,8 +72,8 @@ class Case:
             for module, name, value in (
                 (parallel, "thread_count", lambda: threads),
                 (parallel, "CHUNK", 2048 if threads == 1 else 3),
-                (lists, "SLICE", 2048 if threads == 1 else 5),
-                (parallel_greedy, "WATCHED_PER_CHANGE", 13 if threads == 1 else 0),
+                (rounds, "CHUNK", 2048 if threads == 1 else 5),
+                (parallel_greedy, "ACTIVE_PER_CHANGE", 13 if threads == 1 else 0),
                 (regions, "LEAST_FACES", self.parts),
             ):
                 stack.enter_context(mock.patch.object(module, name, value))

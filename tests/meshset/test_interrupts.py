@@ -90,7 +90,7 @@ import os, signal, sys, threading, time
 import numpy as np, pymeshlab, meshlab_willmore
 sys.path.insert(0, sys.argv[1])
 from meshlab_willmore.mesh.parallel import CHUNK
-from meshlab_willmore.search import peaks
+from meshlab_willmore.search import parallel_greedy
 from tests import meshes
 # Of the annealing, far more than anyone would wait for.
 options = {"search": sys.argv[2], "energy": "willmore", "sweeps": 10**6}
@@ -108,12 +108,12 @@ if sys.argv[2] == "annealing":
     threading.Timer(2.0, interrupt).start()
 else:
     # In the middle of the first round, on one thread or another.
-    find_peaks = peaks.find_peaks
-    def interrupted(look, start, stop):
+    find_maxima = parallel_greedy.find_maxima
+    def interrupted(candidates, start, stop):
         if start == 3 * CHUNK and not sent:
             interrupt()
-        find_peaks(look, start, stop)
-    peaks.find_peaks = interrupted
+        find_maxima(candidates, start, stop)
+    parallel_greedy.find_maxima = interrupted
 try:
     ms.meshing_edge_flip_by_willmore_optimization(**options)
     print("done")

@@ -8,11 +8,10 @@ from meshlab_willmore.energy import virtual, willmore
 from meshlab_willmore.guards.bvh import inactive_bvh
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import NONE, can_flip, flip
-from meshlab_willmore.search import annealing, greedy, rescoring, states
-from meshlab_willmore.search.annealing import Schedule
-from meshlab_willmore.search.heap import NEVER
-from meshlab_willmore.search.kernels import KERNELS
-from meshlab_willmore.search.rules import CONVERGED, STOPPED
+from meshlab_willmore.search import annealing, greedy, multistart, scoring
+from meshlab_willmore.search.compiled import KERNELS
+from meshlab_willmore.search.containers import NEVER
+from meshlab_willmore.search.rules import CONVERGED, STOPPED, Schedule, Settings
 from tests import meshes
 from tests.search.ways import (
     FREE,
@@ -68,12 +67,12 @@ def walk_slowly(mesh, rules, schedule, loss):
 def test_the_walk_and_its_best_state_are_those_of_the_slow_one(name):
     rules = rules_for("willmore")
     mesh = MESHES[name]()
-    greedy.run(WILLMORE.greedy, mesh, rules)
+    greedy.run(WILLMORE, mesh, rules)
     losses = allowed_losses(mesh, rules)
     loss = annealing._median_loss(WILLMORE, mesh, rules)
     assert loss == pytest.approx(np.median(losses) if losses else 0.0, rel=1e-12)
-    seen = list(walk_slowly(states.copy_of(mesh), rules, SHORT, loss))
-    start = states.State(mesh, inactive_bvh(), 5, CONVERGED)
+    seen = list(walk_slowly(multistart.copy_of(mesh), rules, SHORT, loss))
+    start = multistart.Snapshot(mesh, inactive_bvh(), 5, CONVERGED)
     last, best = annealing._anneal(WILLMORE, start, rules, SHORT, loss)
     assert last.flips == seen[-1][0] + 5
     assert last.flips > 20 + 5
@@ -99,7 +98,7 @@ def test_the_best_state_lies_on_the_way_not_at_its_end():
     """Hot until the end, so that the state on the way is the one that counts."""
     mesh, rules = MESHES["closed"](), rules_for("willmore")
     hot = Schedule(sweeps=30, seed=3, hot=1.0, cold=1.0)
-    begin = states.State(mesh, inactive_bvh(), 0, CONVERGED)
+    begin = multistart.Snapshot(mesh, inactive_bvh(), 0, CONVERGED)
     last, best = annealing._anneal(WILLMORE, begin, rules, hot, 1.0)
     assert 0 < best.flips < last.flips
     assert willmore.total(best.mesh) < willmore.total(last.mesh) - 1.0
@@ -112,8 +111,8 @@ def test_the_best_state_lies_on_the_way_not_at_its_end():
 def test_never_worse_than_greedy_and_its_gain_is_the_drop(energy, name):
     kernels, rules = KERNELS[energy], rules_for(energy)
     start, greedily, mesh = MESHES[name](), MESHES[name](), MESHES[name]()
-    wanted = greedy.run(kernels.greedy, greedily, rules)
-    progress = annealing.run(kernels, mesh, rules, SHORT)
+    wanted = greedy.run(kernels, greedily, rules)
+    progress = annealing.run(kernels, mesh, rules, None, Settings(schedule=SHORT))
     validate_connectivity(mesh)
     assert progress.state == CONVERGED
     assert kernels.total(mesh) <= kernels.total(greedily)
@@ -123,8 +122,8 @@ def test_never_worse_than_greedy_and_its_gain_is_the_drop(energy, name):
     assert locked_edges(mesh) == locked_edges(start)
     np.testing.assert_array_equal(mesh.origin, start.origin[mesh.corner])
     # Converged: nothing is left for greedy flips.
-    again = states.copy_of(mesh)
-    assert greedy.run(kernels.greedy, again, rules).flips == 0
+    again = multistart.copy_of(mesh)
+    assert greedy.run(kernels, again, rules).flips == 0
 
 
 @pytest.mark.heavy
@@ -132,10 +131,12 @@ def test_never_worse_than_greedy_and_its_gain_is_the_drop(energy, name):
 def test_the_virtual_energy_leads_and_the_true_one_judges(monotone):
     rules = rules_for("virtual willmore")._replace(monotone=monotone)
     mesh = build(*meshes.torus(200, None, 1))
-    greedily, start = states.copy_of(mesh), willmore.total(mesh)
-    greedy.run(KERNELS["virtual willmore"].greedy, greedily, rules)
+    greedily, start = multistart.copy_of(mesh), willmore.total(mesh)
+    greedy.run(KERNELS["virtual willmore"], greedily, rules)
     schedule = Schedule(sweeps=100)
-    progress = annealing.run(KERNELS["virtual willmore"], mesh, rules, schedule)
+    progress = annealing.run(
+        KERNELS["virtual willmore"], mesh, rules, None, Settings(schedule=schedule)
+    )
     assert progress.gain == pytest.approx(start - willmore.total(mesh), rel=1e-12)
     assert willmore.total(mesh) < willmore.total(greedily) - 1.0
     if monotone:
@@ -143,7 +144,7 @@ def test_the_virtual_energy_leads_and_the_true_one_judges(monotone):
         left = [
             virtual.cost_reduction(mesh, h)
             for h in np.flatnonzero(mesh.twin != NONE)
-            if rescoring.rank(mesh, h, rules, virtual.cost_reduction) > NEVER
+            if scoring.rank(mesh, h, rules, virtual.cost_reduction) > NEVER
         ]
         assert not left
 
@@ -153,7 +154,7 @@ def test_the_same_seed_gives_the_same_mesh_and_another_seed_another():
     for seed in (0, 0, 1):
         mesh = MESHES["closed"]()
         schedule = SHORT._replace(seed=seed, sweeps=8)
-        begin = states.State(mesh, inactive_bvh(), 0, CONVERGED)
+        begin = multistart.Snapshot(mesh, inactive_bvh(), 0, CONVERGED)
         results.append(annealing._anneal(WILLMORE, begin, rules, schedule, 2.0)[0])
     assert results[0].flips == results[1].flips != results[2].flips
     assert_equal(results[0].mesh, results[1].mesh)
@@ -161,46 +162,54 @@ def test_the_same_seed_gives_the_same_mesh_and_another_seed_another():
 
 
 @pytest.mark.parametrize("size", [1, 7, 59, 60, 61])
-def test_slices_change_nothing(size, monkeypatch):
-    def counting(task, walk, draws, temperature):
+def test_the_size_of_a_call_changes_nothing(size, monkeypatch):
+    def counting(state, progress, draws, temperature):
         sizes.append(len(draws))
-        return WILLMORE.anneal(task, walk, draws, temperature)
+        return WILLMORE.anneal(state, progress, draws, temperature)
 
     rules, schedule = rules_for("willmore"), SHORT._replace(sweeps=6)
-    whole, sliced, sizes = MESHES["closed"](), MESHES["closed"](), []
-    wanted = annealing.run(WILLMORE, whole, rules, schedule)
-    monkeypatch.setattr(annealing, "SLICE", size)
+    whole, in_parts, sizes = MESHES["closed"](), MESHES["closed"](), []
+    wanted = annealing.run(WILLMORE, whole, rules, None, Settings(schedule=schedule))
+    monkeypatch.setattr(annealing, "WORK_PER_CALL", size)
     kernels = WILLMORE._replace(anneal=counting)
-    assert annealing.run(kernels, sliced, rules, schedule) == wanted
-    assert_equal(whole, sliced)
+    assert annealing.run(kernels, in_parts, rules, None, Settings(schedule=schedule)) == wanted
+    assert_equal(whole, in_parts)
     edges = len(whole.origin) // 2
     assert sum(sizes) == 6 * edges
     assert max(sizes) == min(size, edges)
 
 
 def test_an_interrupt_leaves_the_mesh_as_it_was():
-    def interrupted(task, walk, draws, temperature):
-        calls.append(walk)
+    def interrupted(state, progress, draws, temperature):
+        calls.append(progress)
         if len(calls) == 4:
             raise KeyboardInterrupt
-        return WILLMORE.anneal(task, walk, draws, temperature)
+        return WILLMORE.anneal(state, progress, draws, temperature)
 
     calls, mesh = [], MESHES["closed"]()
     with pytest.raises(KeyboardInterrupt):
-        annealing.run(WILLMORE._replace(anneal=interrupted), mesh, rules_for("willmore"), SHORT)
+        annealing.run(
+            WILLMORE._replace(anneal=interrupted),
+            mesh,
+            rules_for("willmore"),
+            None,
+            Settings(schedule=SHORT),
+        )
     assert calls[-1].flips > 0
     assert_equal(mesh, MESHES["closed"]())
 
 
 def test_maxflips_counts_every_flip_on_the_way():
     schedule = Schedule(sweeps=10, seed=2, hot=0.6, cold=0.05)
-    everything = annealing.run(WILLMORE, MESHES["closed"](), rules_for("willmore"), schedule)
-    greedily = greedy.run(WILLMORE.greedy, MESHES["closed"](), rules_for("willmore"))
+    everything = annealing.run(
+        WILLMORE, MESHES["closed"](), rules_for("willmore"), None, Settings(schedule=schedule)
+    )
+    greedily = greedy.run(WILLMORE, MESHES["closed"](), rules_for("willmore"))
     start = willmore.total(MESHES["closed"]())
     for limit in (0, 1, 5, greedily.flips, greedily.flips + 1, greedily.flips + 40, 10**6):
         mesh = MESHES["closed"]()
         rules = rules_for("willmore")._replace(maxflips=limit)
-        progress = annealing.run(WILLMORE, mesh, rules, schedule)
+        progress = annealing.run(WILLMORE, mesh, rules, None, Settings(schedule=schedule))
         validate_connectivity(mesh)
         assert progress.flips <= limit
         assert progress.gain == pytest.approx(start - willmore.total(mesh), abs=1e-9)
@@ -214,7 +223,7 @@ def test_maxflips_counts_every_flip_on_the_way():
 
 def test_a_walk_stops_at_the_limit():
     rules = rules_for("willmore")._replace(maxflips=12)
-    begin = states.State(MESHES["closed"](), inactive_bvh(), 5, CONVERGED)
+    begin = multistart.Snapshot(MESHES["closed"](), inactive_bvh(), 5, CONVERGED)
     last, best = annealing._anneal(WILLMORE, begin, rules, SHORT, 2.0)
     assert last.flips == 12
     assert last.state == best.state == STOPPED
@@ -225,7 +234,7 @@ def test_a_mesh_with_nothing_to_lose_is_left_alone():
     """Flat: no flip gains or loses anything that counts, or everything is locked."""
     mesh = MESHES["closed"]()
     mesh.locked[:] = mesh.twin != NONE
-    progress = annealing.run(WILLMORE, mesh, rules_for("willmore"), SHORT)
+    progress = annealing.run(WILLMORE, mesh, rules_for("willmore"), None, Settings(schedule=SHORT))
     assert progress[1:] == (0, 0.0, CONVERGED)
 
 
@@ -242,12 +251,14 @@ def test_the_best_of_all_triangulations_is_found(arrays, count):
     least, found = least_energy(*arrays)
     assert found == count
     greedily = build(*arrays)
-    greedy.run(WILLMORE.greedy, greedily, rules)
+    greedy.run(WILLMORE, greedily, rules)
     assert willmore.total(greedily) > least + 0.01
     reached = []
     for seed in range(5):
         mesh = build(*arrays)
-        annealing.run(WILLMORE, mesh, rules, Schedule(sweeps=100, seed=seed, hot=1.0))
+        annealing.run(
+            WILLMORE, mesh, rules, None, Settings(schedule=Schedule(sweeps=100, seed=seed, hot=1.0))
+        )
         reached.append(willmore.total(mesh))
     assert min(reached) == pytest.approx(least, abs=1e-9)
 
@@ -258,7 +269,9 @@ def test_the_torus_comes_near_the_reference_figure():
     vertices, faces = meshes.torus(2000, 0.3, 8)
     for seed in (0, 1):
         mesh = build(vertices, faces)
-        annealing.run(WILLMORE, mesh, rules_for("willmore"), Schedule(seed=seed))
+        annealing.run(
+            WILLMORE, mesh, rules_for("willmore"), None, Settings(schedule=Schedule(seed=seed))
+        )
         energy = willmore.total(mesh) - 2.0 * np.pi * len(vertices)
         assert 115.75 < energy < 1.02 * 115.754
 
@@ -267,7 +280,7 @@ def test_no_edge_of_a_face_that_is_not_selected_moves():
     mesh = MESHES["locked"]()
     kept = locked_edges(mesh)
     moved = {ends(mesh, h) for h in range(len(mesh.origin))}
-    annealing.run(WILLMORE, mesh, rules_for("willmore", FREE), SHORT)
+    annealing.run(WILLMORE, mesh, rules_for("willmore", FREE), None, Settings(schedule=SHORT))
     now = {ends(mesh, h) for h in range(len(mesh.origin))}
     assert kept <= now
     assert now != moved

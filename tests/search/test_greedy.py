@@ -11,16 +11,15 @@ from meshlab_willmore.energy import virtual, willmore
 from meshlab_willmore.guards.bvh import build_bvh
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import apex, can_flip, flip
-from meshlab_willmore.search import entries, greedy
+from meshlab_willmore.search import greedy
+from meshlab_willmore.search.compiled import KERNELS
 from meshlab_willmore.search.rules import CONVERGED, STOPPED, Rules
 from tests import meshes
 from tests.guards import brute
 from tests.search.ways import shuffled
 
-KERNELS = {
-    "virtual willmore": (entries.greedy_virtual, virtual.cost_reduction),
-    "willmore": (entries.greedy_willmore, willmore.cost_reduction),
-}
+ENERGIES = {"virtual willmore": virtual.cost_reduction, "willmore": willmore.cost_reduction}
+VIRTUAL = KERNELS["virtual willmore"]
 ENERGIES_AND_RULES = [("virtual willmore", True), ("virtual willmore", False), ("willmore", True)]
 
 
@@ -85,11 +84,11 @@ def flips_by_scanning(mesh, rules, cost_reduction, is_blocked=lambda mesh, h: Fa
 @pytest.mark.parametrize(("energy", "monotone"), ENERGIES_AND_RULES)
 @pytest.mark.slow
 def test_the_queue_finds_what_a_scan_finds(energy, fold, monotone, name):
-    kernel, cost_reduction = KERNELS[energy]
+    kernels, cost_reduction = KERNELS[energy], ENERGIES[energy]
     rules = Rules(fold, monotone, MANY)
     scanned, searched = build(*MESHES[name]), build(*MESHES[name])
     flips, gain = flips_by_scanning(scanned, rules, cost_reduction)
-    progress = greedy.run(kernel, searched, rules)
+    progress = greedy.run(kernels, searched, rules)
     validate_connectivity(searched)
     assert progress.flips == flips
     assert progress.gain == pytest.approx(gain, rel=1e-12)
@@ -114,19 +113,19 @@ CROWDED = {
 @pytest.mark.parametrize(("energy", "monotone"), ENERGIES_AND_RULES)
 @pytest.mark.slow
 def test_blocked_edges_are_tried_again_once_a_scan_would(energy, monotone, name):
-    kernel, cost_reduction = KERNELS[energy]
+    kernels, cost_reduction = KERNELS[energy], ENERGIES[energy]
     rules = Rules(FREE, monotone, MANY)
     scanned, searched = build(*CROWDED[name]), build(*CROWDED[name])
     unguarded = build(*CROWDED[name])
     flips, _ = flips_by_scanning(
         scanned, rules, cost_reduction, lambda mesh, h: bool(brute.blockers(mesh, h))
     )
-    progress = greedy.run(kernel, searched, rules, build_bvh(searched))
+    progress = greedy.run(kernels, searched, rules, build_bvh(searched))
     validate_connectivity(searched)
     np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))
     assert progress.flips == flips
     assert progress.state == CONVERGED
-    greedy.run(kernel, unguarded, rules)
+    greedy.run(kernels, unguarded, rules)
     assert (faces_of(unguarded) != faces_of(searched)).any()
 
 
@@ -138,18 +137,18 @@ def test_an_edge_freed_by_a_flip_elsewhere_is_flipped_too(count, seed):
     """
     rules = Rules(FREE, True, MANY)
     mesh = shuffled(count, seed)
-    greedy.run(entries.greedy_willmore, mesh, rules)
+    greedy.run(KERNELS["willmore"], mesh, rules)
     gains = [willmore.cost_reduction(mesh, h) for h in flippable(mesh)]
     assert max(gains) <= rules.tolerance
 
 
-@pytest.mark.parametrize("energy", KERNELS)
+@pytest.mark.parametrize("energy", ENERGIES)
 def test_maxflips_stops_on_the_way(energy):
-    kernel, _ = KERNELS[energy]
-    everything = greedy.run(kernel, build(*MESHES["closed"]), Rules(GUARDED, True, MANY))
+    kernels = KERNELS[energy]
+    everything = greedy.run(kernels, build(*MESHES["closed"]), Rules(GUARDED, True, MANY))
     gains = []
     for limit in range(everything.flips + 2):
-        progress = greedy.run(kernel, build(*MESHES["closed"]), Rules(GUARDED, True, limit))
+        progress = greedy.run(kernels, build(*MESHES["closed"]), Rules(GUARDED, True, limit))
         assert progress.flips == min(limit, everything.flips)
         done = limit >= everything.flips
         assert progress.state == (CONVERGED if done else STOPPED)
@@ -163,7 +162,7 @@ def test_the_cycle_on_a_random_torus_ends(monotone):
     """Literal descent on the virtual energy goes round a 4-cycle for ever on this mesh."""
     vertices, faces = meshes.torus(200, None, 1)
     mesh = build(vertices, faces)
-    progress = greedy.run(entries.greedy_virtual, mesh, Rules(GUARDED, monotone, MANY))
+    progress = greedy.run(VIRTUAL, mesh, Rules(GUARDED, monotone, MANY))
     validate_connectivity(mesh)
     assert progress.state == CONVERGED
 
@@ -171,7 +170,7 @@ def test_the_cycle_on_a_random_torus_ends(monotone):
 def test_ties_do_not_go_round_in_circles():
     """A tie so large that every flip counts as one: what a tie flipped away stays away."""
     mesh = build(*meshes.torus(200, None, 1))
-    progress = greedy.run(entries.greedy_virtual, mesh, Rules(FREE, True, MANY, tie=100.0))
+    progress = greedy.run(VIRTUAL, mesh, Rules(FREE, True, MANY, tie=100.0))
     assert progress.state == CONVERGED
     assert progress.flips > 100
 
@@ -226,7 +225,7 @@ def test_the_monotone_rule_forgives_rounding_only(drop, options, flips):
     vertices, faces, h = tuned(willmore.cost_reduction, drop)
     rules = Rules(FREE, maxflips=MANY)._replace(**options)
     mesh = all_but(build(vertices, faces), h)
-    assert greedy.run(entries.greedy_virtual, mesh, rules).flips == flips
+    assert greedy.run(VIRTUAL, mesh, rules).flips == flips
 
 
 @pytest.mark.parametrize(("gain", "flips"), [(0.9e-7, 0), (1.1e-7, 1), (-1.1e-7, 0)])
@@ -234,7 +233,7 @@ def test_a_flip_must_be_worth_more_than_the_tolerance(gain, flips):
     vertices, faces, h = tuned(virtual.cost_reduction, gain)
     mesh = all_but(build(vertices, faces), h)
     rules = Rules(FREE, False, MANY)
-    assert greedy.run(entries.greedy_virtual, mesh, rules).flips == flips
+    assert greedy.run(VIRTUAL, mesh, rules).flips == flips
 
 
 @pytest.mark.parametrize(("ahead", "first"), [(3e-10, 0), (5e-9, 1), (-5e-9, 0)])
@@ -246,14 +245,16 @@ def test_gains_that_differ_by_rounding_only_go_by_number(ahead, first):
     both = np.vstack([faces, faces + len(one)])
     free = h, h + faces.size
     mesh = all_but(build(np.vstack([one, other]), both), *free)
-    greedy.run(entries.greedy_virtual, mesh, Rules(FREE, False, maxflips=1))
+    greedy.run(VIRTUAL, mesh, Rules(FREE, False, maxflips=1))
     changed = (faces_of(mesh) != both).any(axis=1).reshape(2, -1).any(axis=1)
     assert changed.tolist() == [first == 0, first == 1]
 
 
-@pytest.mark.parametrize("place", [greedy.SLICE - 1, greedy.SLICE, greedy.SLICE + 1])
-def test_no_half_edge_is_left_out_where_a_slice_of_the_scoring_ends(place):
-    """The one free edge, with a gain, is put at the end or the start of a slice."""
+@pytest.mark.parametrize(
+    "place", [greedy.WORK_PER_CALL - 1, greedy.WORK_PER_CALL, greedy.WORK_PER_CALL + 1]
+)
+def test_no_half_edge_is_left_out_where_a_call_of_the_scoring_ends(place):
+    """The one free edge, with a gain, is put at the end or the start of a call."""
     vertices, faces, h = tuned(virtual.cost_reduction, 0.1)
     far, filler = meshes.grid(90, 90)
     face, corner = divmod(place, 3)
@@ -263,7 +264,7 @@ def test_no_half_edge_is_left_out_where_a_slice_of_the_scoring_ends(place):
     all_but(mesh, place)
     assert place < mesh.twin[place]
     rules = Rules(FREE, False, MANY)
-    assert greedy.run(entries.greedy_virtual, mesh, rules).flips == 1
+    assert greedy.run(VIRTUAL, mesh, rules).flips == 1
 
 
 @pytest.mark.heavy

@@ -6,20 +6,26 @@ import numpy as np
 import pytest
 
 from meshlab_willmore import guards
-from meshlab_willmore.energy import willmore
-from meshlab_willmore.energy.kinds import KINDS
+from meshlab_willmore.energy import table, willmore
 from meshlab_willmore.guards.bvh import build_bvh, expand, inactive_bvh
 from meshlab_willmore.measure import self_intersections
 from meshlab_willmore.mesh import parallel
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import apex, flip, following, is_free, makes_new_edge, previous
 from meshlab_willmore.optimize import optimize_flips
-from meshlab_willmore.search import lists, parallel_greedy, peaks
-from meshlab_willmore.search.board import board_of
-from meshlab_willmore.search.heap import NEVER
-from meshlab_willmore.search.kernels import KERNELS
-from meshlab_willmore.search.peaks import IS_BLOCKED, IS_JOINED, IS_PEAK, STAYS, Look
-from meshlab_willmore.search.rules import CONVERGED, STOPPED
+from meshlab_willmore.search import parallel_greedy, rounds
+from meshlab_willmore.search.compiled import KERNELS
+from meshlab_willmore.search.containers import NEVER
+from meshlab_willmore.search.parallel_greedy import NO_MAXIMUM
+from meshlab_willmore.search.rounds import Candidates, initial_state
+from meshlab_willmore.search.rules import (
+    ALLOWED,
+    CONVERGED,
+    INTERSECTS,
+    JOINED,
+    STOPPED,
+    Settings,
+)
 from tests import meshes, reference
 from tests.combinations import BOTH_WILLMORE, ENERGIES, ENERGIES_AND_RULES
 from tests.search.ways import FREE, GUARDED, MESHES, rules_for, shuffled
@@ -56,7 +62,7 @@ def rank_of(mesh, h, rules, energy):
     """The rank of an edge and whether its flip is a tie, or None."""
     if not is_free(mesh, h):
         return None
-    gain, drop = KINDS[energy].cost_reduction(mesh, h), willmore.cost_reduction(mesh, h)
+    gain, drop = KERNELS[energy].energy.cost_reduction(mesh, h), willmore.cost_reduction(mesh, h)
     if not gain > rules.tolerance or (rules.monotone and drop < -rules.tie):
         return None
     is_tie = not rules.is_potential and (not rules.monotone or drop <= 2 * rules.tie)
@@ -71,7 +77,7 @@ def rounds_by_scanning(mesh, rules, energy):
         for h in edges_of(mesh):
             found = rank_of(mesh, h, rules, energy)
             if found and ends(mesh, h) not in asleep:
-                number = int(peaks.scrambled(h))
+                number = int(rounds.scrambled(h))
                 ranks[ends(mesh, h)] = (-found[0], number, h, found[1])
         if not ranks:
             return len(gains), math.fsum(gains)
@@ -89,7 +95,7 @@ def rounds_by_scanning(mesh, rules, energy):
             else:
                 if is_tie:
                     gone.add(ends(mesh, h))
-                gains.append(KINDS[energy].cost_reduction(mesh, h))
+                gains.append(KERNELS[energy].energy.cost_reduction(mesh, h))
                 flip(mesh, h)
                 flipped.append(h)
         validate_connectivity(mesh)
@@ -104,14 +110,15 @@ def rounds_by_scanning(mesh, rules, energy):
 @pytest.mark.parametrize("name", ALL_MESHES)
 @pytest.mark.parametrize("fold", [GUARDED, FREE])
 @pytest.mark.parametrize(
-    ("energy", "monotone"), [p for p in ENERGIES_AND_RULES if not KINDS[p.values[0]].is_wide]
+    ("energy", "monotone"),
+    [p for p in ENERGIES_AND_RULES if not table.ENERGIES[p.values[0]].is_wide],
 )
 @pytest.mark.slow
 def test_the_rounds_are_those_of_a_scan(energy, fold, monotone, name):
     rules = rules_for(energy, fold)._replace(monotone=monotone)
     scanned, searched = ALL_MESHES[name](), ALL_MESHES[name]()
     flips, gain = rounds_by_scanning(scanned, rules, energy)
-    progress = parallel_greedy.run(KERNELS[energy].score, searched, rules)
+    progress = parallel_greedy.run(KERNELS[energy], searched, rules)
     validate_connectivity(searched)
     assert progress.flips == flips
     assert progress.gain == pytest.approx(gain, rel=1e-12)
@@ -119,43 +126,43 @@ def test_the_rounds_are_those_of_a_scan(energy, fold, monotone, name):
     np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))
 
 
-def scored(mesh, rules, energy, space=None):
-    """The board after the first score, its candidates, and their number."""
-    board = board_of(mesh, rules, inactive_bvh() if space is None else space)
-    KERNELS[energy].score(board, 0, len(board.touched))
-    return board, lists.add_candidates(board, 0, len(board.touched), 0)
+def scored(mesh, rules, energy, bvh=None):
+    """The state after the first score, its candidates, and their number."""
+    state = initial_state(mesh, rules, inactive_bvh() if bvh is None else bvh)
+    KERNELS[energy].score(state, 0, len(state.dirty))
+    return state, rounds.add_ranked(state, 0, len(state.dirty), 0)
 
 
 @pytest.mark.parametrize("energy", BOTH_WILLMORE)
 @pytest.mark.parametrize("name", ["closed", "boundary", "fin", "locked", "shuffled"])
 def test_many_edges_at_once_get_the_bits_that_each_gets_alone(energy, name):
     mesh = ALL_MESHES[name]()
-    board, _ = scored(mesh, rules_for(energy, FREE), energy)
-    ranked = [h for h in edges_of(mesh) if board.rank[h] > NEVER]
+    state, _ = scored(mesh, rules_for(energy, FREE), energy)
+    ranked = [h for h in edges_of(mesh) if state.rank[h] > NEVER]
     assert ranked
     for h in edges_of(mesh):
-        found = rank_of(mesh, h, board.rules, energy)
+        found = rank_of(mesh, h, state.rules, energy)
         assert (found is not None) == (h in ranked)
-        assert board.rank[h] == board.rank[mesh.twin[h]] == (found[0] if found else NEVER)
+        assert state.rank[h] == state.rank[mesh.twin[h]] == (found[0] if found else NEVER)
         if found:
-            assert board.gain[h] == KINDS[energy].cost_reduction(mesh, h)
-            assert board.is_tie[h] == found[1]
+            assert state.gain[h] == KERNELS[energy].energy.cost_reduction(mesh, h)
+            assert state.is_tie[h] == found[1]
 
 
-def peaks_of(board, edges, number=1):
+def maxima_of(state, edges, number=1):
     """The verdict on each of the edges, and the peaks, in order, with the first contested place."""
     edges = np.array(edges, np.int32)
-    look = Look(board, edges, np.empty(len(edges), np.int8))
-    peaks.find_peaks(look, 0, len(edges))
+    candidates = Candidates(state, edges, np.empty(len(edges), np.int8))
+    parallel_greedy.find_maxima(candidates, 0, len(edges))
     with parallel.thread_pool(1) as parallel_for:
-        return look.verdict, *peaks.in_order(look, number, 0, parallel_for)
+        return candidates.verdict, *parallel_greedy.in_order(candidates, number, 0, parallel_for)
 
 
-def flip_all(board, edges):
-    """Flip the peaks among the edges in one round; return the board, those, and what was done."""
-    _, chosen, first = peaks_of(board, edges)
-    board, done = parallel_greedy._flip_all(board, chosen, first, 10**6, 1)
-    return board, list(board.done[: done.flipped]), done
+def flip_all(state, edges):
+    """Flip the peaks among the edges in one round; return the state, those, and what was done."""
+    _, chosen, first = maxima_of(state, edges)
+    state, done = parallel_greedy._flip_all(chosen, first, 10**6, 1)
+    return state, list(state.done[: done.flipped]), done
 
 
 @pytest.mark.parametrize("energy", ENERGIES)
@@ -163,31 +170,34 @@ def flip_all(board, edges):
 @pytest.mark.slow
 def test_the_order_of_the_flips_of_a_round_does_not_matter(energy, seed):
     mesh = build(*meshes.bumpy_sphere(120, seed, bump=0.7))
-    board, count = scored(mesh, rules_for(energy, FREE), energy)
-    candidates = board.candidates[:count].copy()
-    verdict, _, _ = peaks_of(board, candidates, 7)
-    board, chosen, done = flip_all(board, candidates)
+    state, count = scored(mesh, rules_for(energy, FREE), energy)
+    candidates = state.ranked[:count].copy()
+    verdict, _, _ = maxima_of(state, candidates, 7)
+    state, chosen, done = flip_all(state, candidates)
     assert len(chosen) > 1
-    assert set(chosen) <= set(candidates[verdict == IS_PEAK])
-    assert KINDS[energy].is_wide or len(chosen) + done.refused == (verdict != STAYS).sum()
+    assert set(chosen) <= set(candidates[verdict == ALLOWED])
+    assert (
+        table.ENERGIES[energy].is_wide
+        or len(chosen) + done.refused == (verdict != NO_MAXIMUM).sum()
+    )
     other = build(*meshes.bumpy_sphere(120, seed, bump=0.7))
     gains = []
     for h in np.random.default_rng(seed).permutation(chosen):
         assert makes_new_edge(other, h)
-        gains.append(KINDS[energy].cost_reduction(other, h))
-        assert gains[-1] == pytest.approx(board.gain[h], rel=1e-12)
+        gains.append(KERNELS[energy].energy.cost_reduction(other, h))
+        assert gains[-1] == pytest.approx(state.gain[h], rel=1e-12)
         flip(other, h)
     np.testing.assert_array_equal(other.origin, mesh.origin)
     np.testing.assert_array_equal(other.twin, mesh.twin)
     assert done.gain == pytest.approx(math.fsum(gains), rel=1e-12)
 
 
-def with_ranks(mesh, ranks, space=None):
-    """A board on which just these edges have a rank."""
-    board = board_of(mesh, rules_for("willmore", FREE), inactive_bvh() if space is None else space)
+def with_ranks(mesh, ranks, bvh=None):
+    """A state on which just these edges have a rank."""
+    state = initial_state(mesh, rules_for("willmore", FREE), inactive_bvh() if bvh is None else bvh)
     for h, rank in ranks.items():
-        board.rank[h] = board.rank[mesh.twin[h]] = rank
-    return board
+        state.rank[h] = state.rank[mesh.twin[h]] = rank
+    return state
 
 
 @pytest.mark.parametrize("larger", [0, 1])
@@ -197,34 +207,34 @@ def test_of_two_flips_to_the_same_edge_the_smaller_waits_until_it_is_gone(larger
     assert len(ring) == 8
     two = ring[0], ring[4]
     one, other = two[larger], two[1 - larger]
-    board = with_ranks(mesh, {one: 2.0, other: 1.0})
-    verdict, _, _ = peaks_of(board, two, 7)
-    assert list(verdict) == [IS_PEAK, IS_PEAK]
-    board, flipped, done = flip_all(board, two)
+    state = with_ranks(mesh, {one: 2.0, other: 1.0})
+    verdict, _, _ = maxima_of(state, two, 7)
+    assert list(verdict) == [ALLOWED, ALLOWED]
+    state, flipped, done = flip_all(state, two)
     assert flipped == [one]
-    assert list(board.done[-done.refused :]) == [other]
-    assert board.rank[other] == NEVER
+    assert list(state.done[-done.refused :]) == [other]
+    assert state.rank[other] == NEVER
     validate_connectivity(mesh)
     assert ends(mesh, one) == {8, 9}
     # In a later round the edge is there already.
-    board.rank[other] = board.rank[mesh.twin[other]] = 1.0
-    verdict, _, _ = peaks_of(board, [other], 2)
-    assert list(verdict) == [IS_JOINED]
+    state.rank[other] = state.rank[mesh.twin[other]] = 1.0
+    verdict, _, _ = maxima_of(state, [other], 2)
+    assert list(verdict) == [JOINED]
     # Once it is flipped away, the edge that waits is looked at again.
     for _ in range(3):
         flip(mesh, one)
-    board.done[0] = one
+    state.done[0] = one
     with parallel.thread_pool(1) as parallel_for:
-        size = lists.touch_all(board, 1, parallel_for)
-    assert other in board.touched[:size]
+        size = rounds.list_dirty(state, 1, parallel_for)
+    assert other in state.dirty[:size]
 
 
 def test_edges_of_equal_gain_do_not_wait_for_the_first_of_all():
     mesh = build(*meshes.grid(12, 12))
     edges = [h for h in edges_of(mesh) if is_free(mesh, h)]
-    board = with_ranks(mesh, dict.fromkeys(edges, 1.0))
-    verdict, _, _ = peaks_of(board, edges)
-    chosen = {h for h, what in zip(edges, verdict, strict=True) if what != STAYS}
+    state = with_ranks(mesh, dict.fromkeys(edges, 1.0))
+    verdict, _, _ = maxima_of(state, edges)
+    chosen = {h for h, what in zip(edges, verdict, strict=True) if what != NO_MAXIMUM}
     assert len(chosen) > len(edges) / 26
     for h in chosen:
         around = {x for x in edges if ends(mesh, x) in six_faces(mesh, h)}
@@ -237,12 +247,12 @@ def test_the_number_of_threads_changes_nothing(energy, name, monkeypatch):
     results, gains = [], []
     for threads, chunk in ((2, 2048), (1, 7), (4, 7), (3, 1), (6, 16)):
         monkeypatch.setattr(parallel, "CHUNK", chunk)
-        monkeypatch.setattr(lists, "SLICE", 3 * chunk)
+        monkeypatch.setattr(rounds, "CHUNK", 3 * chunk)
         # To look at all candidates, or at those around changes only, must be the same.
-        monkeypatch.setattr(parallel_greedy, "WATCHED_PER_CHANGE", 10 * (threads % 2))
+        monkeypatch.setattr(parallel_greedy, "ACTIVE_PER_CHANGE", 10 * (threads % 2))
         mesh = ALL_MESHES[name]()
         progress = parallel_greedy.run(
-            KERNELS[energy].score, mesh, rules_for(energy), threads=threads
+            KERNELS[energy], mesh, rules_for(energy), None, Settings(threads=threads)
         )
         results.append((progress.flips, mesh.origin.tobytes(), mesh.corner.tobytes()))
         gains.append(progress.gain)
@@ -254,14 +264,14 @@ def test_the_number_of_threads_changes_nothing(energy, name, monkeypatch):
 
 
 @HEAVY
-@pytest.mark.parametrize("energy", [e for e in KERNELS if KINDS[e].is_potential])
+@pytest.mark.parametrize("energy", [e for e in KERNELS if table.ENERGIES[e].is_potential])
 @pytest.mark.parametrize("name", ALL_MESHES)
 def test_nothing_is_left_to_gain_and_the_gain_is_the_drop(energy, name):
     mesh, rules = ALL_MESHES[name](), rules_for(energy)
-    before = KINDS[energy].total(mesh)
-    progress = parallel_greedy.run(KERNELS[energy].score, mesh, rules)
+    before = KERNELS[energy].total(mesh)
+    progress = parallel_greedy.run(KERNELS[energy], mesh, rules)
     validate_connectivity(mesh)
-    assert progress.gain == pytest.approx(before - KINDS[energy].total(mesh), rel=1e-9, abs=1e-9)
+    assert progress.gain == pytest.approx(before - KERNELS[energy].total(mesh), rel=1e-9, abs=1e-9)
     for h in edges_of(mesh):
         if rank_of(mesh, h, rules, energy) and makes_new_edge(mesh, h):
             assert guards.folds(mesh, h, rules.fold)
@@ -272,13 +282,13 @@ def test_nothing_is_left_to_gain_and_the_gain_is_the_drop(energy, name):
 @pytest.mark.parametrize("model", [(2000, 0.3, 8), (2000, None, 1)])
 def test_rounds_end_as_low_as_the_queue(energy, model):
     vertices, faces = meshes.torus(*model)
-    total = KINDS[energy].total
+    total = KERNELS[energy].total
     in_rounds, by_queue = [
         total(build(vertices, optimize_flips(vertices, faces, energy=energy, search=search).faces))
         for search in ("parallel greedy", "greedy")
     ]
     # In the absolute Gaussian curvature local minima are many.
-    slack = 0.03 if KINDS[energy].is_wide else 0.01
+    slack = 0.03 if table.ENERGIES[energy].is_wide else 0.01
     assert in_rounds <= (1.0 + slack) * by_queue
 
 
@@ -287,7 +297,7 @@ def test_rounds_end_as_low_as_the_queue(energy, model):
 def test_maxflips_stops_on_the_way(energy, limit):
     mesh = ALL_MESHES["closed"]()
     rules = rules_for(energy)._replace(maxflips=limit)
-    progress = parallel_greedy.run(KERNELS[energy].score, mesh, rules)
+    progress = parallel_greedy.run(KERNELS[energy], mesh, rules)
     assert (progress.flips, progress.state) == (limit, STOPPED)
     validate_connectivity(mesh)
 
@@ -297,14 +307,14 @@ def test_maxflips_stops_on_the_way(energy, limit):
 @pytest.mark.slow
 def test_with_the_guard_edges_that_would_cut_are_tried_again(energy):
     mesh = build(*meshes.bumpy_sphere(150, bump=0.95))
-    space = build_bvh(mesh)
+    bvh = build_bvh(mesh)
     rules = rules_for(energy, FREE)
-    progress = parallel_greedy.run(KERNELS[energy].score, mesh, rules, space)
+    progress = parallel_greedy.run(KERNELS[energy], mesh, rules, bvh)
     assert progress.state == CONVERGED
     assert progress.flips > 0
     for h in edges_of(mesh):
         if rules.is_potential and rank_of(mesh, h, rules, energy) and makes_new_edge(mesh, h):
-            assert guards.intersections.would_intersect(mesh, space, h)
+            assert guards.intersections.would_intersect(mesh, bvh, h)
 
 
 @pytest.mark.parametrize("gap", [1.0, 3.0])
@@ -314,23 +324,23 @@ def test_two_flips_of_a_round_do_not_cut_each_other(gap):
     high = [(y, x, gap - z) for x, y, z in low]
     faces = np.array([(0, 1, 2), (1, 0, 3), (4, 5, 6), (5, 4, 7)], np.int32)
     mesh = build(np.array(low + high, float) / 4, faces)
-    space = build_bvh(mesh)
+    bvh = build_bvh(mesh)
     two = edges_of(mesh)
     assert [ends(mesh, h) for h in two] == [{0, 1}, {4, 5}]
-    board = with_ranks(mesh, {two[0]: 1.0, two[1]: 2.0}, space)
-    verdict, _, _ = peaks_of(board, two, 7)
-    assert list(verdict) == [IS_PEAK, IS_PEAK]
-    board, flipped, done = flip_all(board, two)
+    state = with_ranks(mesh, {two[0]: 1.0, two[1]: 2.0}, bvh)
+    verdict, _, _ = maxima_of(state, two, 7)
+    assert list(verdict) == [ALLOWED, ALLOWED]
+    state, flipped, done = flip_all(state, two)
     if gap > 2.0:
         assert sorted(flipped) == two
     else:
-        assert (flipped, done.refused, board.rank[two[0]]) == ([two[1]], 1, NEVER)
+        assert (flipped, done.refused, state.rank[two[0]]) == ([two[1]], 1, NEVER)
         # It waits until that face changes again.
         flip(mesh, two[1])
-        board.done[0] = two[1]
+        state.done[0] = two[1]
         with parallel.thread_pool(1) as parallel_for:
-            size = lists.touch_all(board, 1, parallel_for)
-        assert two[0] in board.touched[:size]
+            size = rounds.list_dirty(state, 1, parallel_for)
+        assert two[0] in state.dirty[:size]
     assert not self_intersections(mesh.vertices, faces_of(mesh)).any()
 
 
@@ -343,8 +353,13 @@ def test_with_the_guard_too_the_number_of_threads_changes_nothing(seed, monkeypa
     for threads in (1, 3):
         mesh = build(vertices, faces)
         rules = rules_for("willmore", FREE)
-        kernel = KERNELS["willmore"].score
-        parallel_greedy.run(kernel, mesh, rules, build_bvh(mesh), threads=threads)
+        parallel_greedy.run(
+            KERNELS["willmore"],
+            mesh,
+            rules,
+            build_bvh(mesh),
+            Settings(threads=threads),
+        )
         is_new = np.array([frozenset(f) not in known for f in faces_of(mesh).tolist()])
         assert is_new.any()
         assert not (self_intersections(vertices, faces_of(mesh)) & is_new).any()
@@ -383,26 +398,26 @@ def test_what_a_cut_forbade_before_a_round_is_not_flipped_in_it():
 @HEAVY
 def test_what_must_not_be_flipped_waits_before_the_first_flip_of_a_round():
     mesh = build(*meshes.crumpled(11, noise=1.5))
-    board, count = scored(mesh, rules_for("willmore", FREE), "willmore", build_bvh(mesh))
-    verdict, chosen, first = peaks_of(board, board.candidates[:count])
-    is_peak = chosen.verdict == IS_PEAK
-    assert IS_BLOCKED in verdict
-    assert 0 < np.count_nonzero(~is_peak) <= first
-    assert (np.sort(~is_peak)[::-1] == ~is_peak).all()
-    blocked = chosen.edges[chosen.verdict == IS_BLOCKED]
+    state, count = scored(mesh, rules_for("willmore", FREE), "willmore", build_bvh(mesh))
+    verdict, chosen, first = maxima_of(state, state.ranked[:count])
+    is_allowed = chosen.verdict == ALLOWED
+    assert INTERSECTS in verdict
+    assert 0 < np.count_nonzero(~is_allowed) <= first
+    assert (np.sort(~is_allowed)[::-1] == ~is_allowed).all()
+    blocked = chosen.edges[chosen.verdict == INTERSECTS]
     before = [ends(mesh, h) for h in blocked]
-    board, done = parallel_greedy._flip_all(board, chosen, first, 10**6, 1)
+    state, done = parallel_greedy._flip_all(chosen, first, 10**6, 1)
     assert done.flipped > 0
     assert [ends(mesh, h) for h in blocked] == before
-    assert (board.waiting.face[blocked] >= 0).all()
-    assert (board.rank[blocked] == NEVER).all()
+    assert (state.watch_lists.face[blocked] >= 0).all()
+    assert (state.rank[blocked] == NEVER).all()
 
 
-def test_a_new_board_forgets_the_rounds_of_a_run_before():
+def test_a_new_state_forgets_the_rounds_of_a_run_before():
     mesh = build(*meshes.bumpy_sphere(60))
-    space = build_bvh(mesh)
-    expand(mesh, space, 0, 3)
-    assert space.changed.max() == space.changed_below.max() == 3
-    board_of(mesh, rules_for("willmore"), space)
-    assert not space.changed.any()
-    assert not space.changed_below.any()
+    bvh = build_bvh(mesh)
+    expand(mesh, bvh, 0, 3)
+    assert bvh.changed.max() == bvh.changed_below.max() == 3
+    initial_state(mesh, rules_for("willmore"), bvh)
+    assert not bvh.changed.any()
+    assert not bvh.changed_below.any()

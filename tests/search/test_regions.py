@@ -5,16 +5,15 @@ import threading
 import numpy as np
 import pytest
 
-from meshlab_willmore.energy.kinds import KINDS
+from meshlab_willmore.energy.table import ENERGIES
 from meshlab_willmore.guards.bvh import build_bvh
 from meshlab_willmore.measure import willmore_energy_of
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import NONE, can_flip, flip, is_free
 from meshlab_willmore.search import regions, variable_depth
-from meshlab_willmore.search.chains import Reach
-from meshlab_willmore.search.kernels import KERNELS
-from meshlab_willmore.search.rules import CONVERGED, Progress
-from meshlab_willmore.search.states import copy_of
+from meshlab_willmore.search.compiled import KERNELS
+from meshlab_willmore.search.multistart import copy_of
+from meshlab_willmore.search.rules import CONVERGED, ChainLimits, Progress, Settings
 from tests import meshes
 from tests.search.ways import locked_edges, rules_for
 
@@ -25,7 +24,7 @@ MESHES = {
     "bow tie": meshes.bow_tie,
 }
 NOTHING = Progress(0, 0, 0.0, CONVERGED)
-REACH = Reach(3, 3)
+LIMITS = ChainLimits(3, 3)
 
 
 @pytest.fixture(name="mesh", params=MESHES)
@@ -41,8 +40,8 @@ def _mesh(request, monkeypatch):
 
 def regions_of(mesh):
     parts = regions._split(mesh)
-    is_shared = regions._shared_vertices(mesh, parts)
-    return [regions._region(mesh, part, is_shared) for part in parts]
+    is_common = regions._common_vertices(mesh, parts)
+    return [regions._region(mesh, part, is_common) for part in parts]
 
 
 def test_every_face_is_in_one_part_and_none_is_small(mesh):
@@ -67,7 +66,7 @@ def test_vertices_of_several_parts_have_frozen_faces_only(mesh):
 
 @pytest.mark.parametrize("energy", ["virtual willmore", "gaussian curvature"])
 def test_what_may_be_flipped_gains_what_it_does_in_the_whole_mesh(mesh, energy):
-    cost_reduction = KINDS[energy].cost_reduction
+    cost_reduction = KERNELS[energy].energy.cost_reduction
     for part in regions_of(mesh):
         for h in range(len(part.mesh.origin)):
             if part.mesh.twin[h] == NONE or not is_free(part.mesh, h):
@@ -130,11 +129,9 @@ def test_an_error_in_one_part_halts_the_others(monkeypatch):
     np.testing.assert_array_equal(mesh.origin, before)
 
 
-def searched(mesh, energy, threads=None, space=None):
-    kernels = KERNELS[energy]
-    return variable_depth.run(
-        kernels.depth, kernels.greedy, mesh, rules_for(energy), REACH, space, threads
-    )
+def searched(mesh, energy, threads=None, bvh=None):
+    settings = Settings(LIMITS, threads=threads)
+    return variable_depth.run(KERNELS[energy], mesh, rules_for(energy), bvh, settings)
 
 
 @pytest.mark.heavy
@@ -153,9 +150,9 @@ def test_chains_in_regions_do_not_depend_on_threads_and_leave_none(energy, monke
         assert progress.state == CONVERGED
         results.append((progress.flips, progress.gain, mesh.origin.tobytes()))
     assert results[0] == results[1] == results[2]
-    total = KINDS[energy].total
+    total = KERNELS[energy].total
     assert total(mesh) <= 1.02 * total(whole)
-    if KINDS[energy].is_potential:
+    if ENERGIES[energy].is_potential:
         drop = total(build(vertices, faces)) - total(mesh)
         assert progress.gain == pytest.approx(drop, rel=1e-9)
     # In the whole mesh at once there is no chain left either.
@@ -180,9 +177,8 @@ def test_with_the_guard_or_a_limit_the_mesh_is_searched_as_a_whole(monkeypatch):
 
     monkeypatch.setattr(regions, "run", run)
     mesh = build(*meshes.bumpy_sphere(60))
-    searched(mesh, "willmore", space=build_bvh(mesh))
-    kernels = KERNELS["willmore"]
+    searched(mesh, "willmore", bvh=build_bvh(mesh))
     limited = rules_for("willmore")._replace(maxflips=10**6)
-    variable_depth.run(kernels.depth, kernels.greedy, mesh, limited, REACH)
+    variable_depth.run(KERNELS["willmore"], mesh, limited, None, Settings(LIMITS))
     with pytest.raises(AssertionError):
         searched(mesh, "willmore")

@@ -11,10 +11,17 @@ from meshlab_willmore.guards.bvh import build_bvh, inactive_bvh, refitted
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
 from meshlab_willmore.mesh.halfedge import NONE, apex, can_flip, flip, following, previous
 from meshlab_willmore.mesh.jit import jit
-from meshlab_willmore.search import chains, entries, greedy, states, variable_depth
-from meshlab_willmore.search import pending as pending_queue
-from meshlab_willmore.search.chains import Reach
-from meshlab_willmore.search.rules import CONVERGED, STOPPED, WORKING, Progress, Rules
+from meshlab_willmore.search import chains, containers, greedy, multistart, variable_depth
+from meshlab_willmore.search.compiled import KERNELS
+from meshlab_willmore.search.rules import (
+    CONVERGED,
+    STOPPED,
+    WORKING,
+    ChainLimits,
+    Progress,
+    Rules,
+    Settings,
+)
 from tests import meshes, reference
 from tests.guards import brute
 from tests.search import ways
@@ -22,21 +29,9 @@ from tests.search.ways import FREE, GUARDED, shuffled
 
 # More rounds than any of these runs needs.
 MANY = 100
-ENERGIES = {
-    "virtual willmore": (
-        entries.depth_virtual,
-        entries.greedy_virtual,
-        virtual.cost_reduction,
-        willmore.cost_reduction,
-    ),
-    "willmore": (
-        entries.depth_willmore,
-        entries.greedy_willmore,
-        willmore.cost_reduction,
-        willmore.cost_reduction,
-    ),
-}
-REACHES = [Reach(1, 1), Reach(2, 1), Reach(3, 2), Reach(4, 3)]
+# What ranks the edges; the Willmore energy judges.
+ENERGIES = {"virtual willmore": virtual.cost_reduction, "willmore": willmore.cost_reduction}
+LIMITS = [ChainLimits(1, 1), ChainLimits(2, 1), ChainLimits(3, 2), ChainLimits(4, 3)]
 
 
 MESHES = {name: mesh for name, mesh in ways.MESHES.items() if len(mesh().origin) > 6}
@@ -62,8 +57,8 @@ def around(mesh, h):
 class Scan:
     """Chains by recursion, on copies; every edge is tried again until none helps."""
 
-    def __init__(self, rules, reach, rank, judge, is_blocked=lambda mesh, h: False):
-        self.rules, self.reach, self.rank, self.judge = rules, reach, rank, judge
+    def __init__(self, rules, limits, rank, judge, is_blocked=lambda mesh, h: False):
+        self.rules, self.limits, self.rank, self.judge = rules, limits, rank, judge
         self.is_blocked = is_blocked
 
     def allowed(self, mesh, h):
@@ -80,7 +75,7 @@ class Scan:
             for place, h in enumerate(candidates)
             if ends(mesh, h) not in made and self.allowed(mesh, h)
         )
-        last = len(chain) + 1 == self.reach.depth
+        last = len(chain) + 1 == self.limits.depth
         # The last step is free, so that all edges may be tried: in the order of the ring.
         if last and chain:
             ranked.sort(key=lambda entry: entry[1])
@@ -95,9 +90,9 @@ class Scan:
                 self.best = drop, [entry[0] for entry in longer]
             if last:
                 continue
-            flipped = states.copy_of(mesh)
+            flipped = multistart.copy_of(mesh)
             flip(flipped, h)
-            following_width = -(-width // 2) if chain else self.reach.breadth
+            following_width = -(-width // 2) if chain else self.limits.breadth
             joined = {*made, ends(flipped, h)}
             self.explore(flipped, around(flipped, h), longer, joined, following_width)
             if self.best[1]:
@@ -139,13 +134,13 @@ class Scan:
         """Go one flip deeper where the harmonic index would flip edges, until it helps no more."""
         deeper = Scan(
             self.rules,
-            self.reach._replace(depth=self.reach.depth + 1),
+            self.limits._replace(depth=self.limits.depth + 1),
             self.rank,
             self.judge,
             self.is_blocked,
         )
         made = []
-        while self.reach.depth > 1:
+        while self.limits.depth > 1:
             doubtful = set()
             for h in range(len(mesh.origin)):
                 t = int(mesh.twin[h])
@@ -161,28 +156,38 @@ class Scan:
         return made
 
 
-def search(energy, mesh, rules, reach):
-    kernel, descent, _, _ = ENERGIES[energy]
-    return variable_depth.run(kernel, descent, mesh, rules, reach)
+def search(energy, mesh, rules, limits):
+    return variable_depth.run(KERNELS[energy], mesh, rules, None, Settings(limits))
+
+
+@jit
+def find_willmore(state, h):
+    """Call `chains.find_chain`, which takes modules and so has no cache, for one energy."""
+    return chains.find_chain(state, h, willmore, None)
+
+
+@jit
+def find_virtual(state, h):
+    return chains.find_chain(state, h, virtual, willmore)
 
 
 @pytest.mark.heavy
 @pytest.mark.parametrize("name", MESHES)
 @pytest.mark.parametrize("fold", [GUARDED, FREE])
-@pytest.mark.parametrize("reach", REACHES)
+@pytest.mark.parametrize("limits", LIMITS)
 @pytest.mark.parametrize("energy", ENERGIES)
 @pytest.mark.slow
-def test_the_search_finds_what_a_scan_finds(energy, reach, fold, name):
+def test_the_search_finds_what_a_scan_finds(energy, limits, fold, name):
     """Also that to try again the edges near a change is as good as to try all again."""
-    _, descent, rank, judge = ENERGIES[energy]
+    rank, judge = ENERGIES[energy], willmore.cost_reduction
     rules = Rules(fold)
     scanned, searched = MESHES[name](), MESHES[name]()
-    flips = greedy.run(descent, scanned, rules).flips
-    if reach.breadth > 1:
-        flips += sum(Scan(rules, reach._replace(breadth=1), rank, judge).run(scanned, rounds=1))
-    scan = Scan(rules, reach, rank, judge)
+    flips = greedy.run(KERNELS[energy], scanned, rules).flips
+    if limits.breadth > 1:
+        flips += sum(Scan(rules, limits._replace(breadth=1), rank, judge).run(scanned, rounds=1))
+    scan = Scan(rules, limits, rank, judge)
     flips += sum(scan.run(scanned, rounds=MANY)) + sum(scan.doubts(scanned))
-    progress = search(energy, searched, rules, reach)
+    progress = search(energy, searched, rules, limits)
     validate_connectivity(searched)
     np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))
     assert progress.flips == flips
@@ -199,55 +204,43 @@ CROWDED = {
 
 @pytest.mark.heavy
 @pytest.mark.parametrize("name", CROWDED)
-@pytest.mark.parametrize("reach", [Reach(2, 1), Reach(3, 2)])
+@pytest.mark.parametrize("limits", [ChainLimits(2, 1), ChainLimits(3, 2)])
 @pytest.mark.slow
-def test_chains_blocked_by_cuts_are_tried_again_once_a_scan_would(reach, name):
-    kernel, descent, rank, judge = ENERGIES["willmore"]
-    rules = Rules(FREE)
+def test_chains_blocked_by_cuts_are_tried_again_once_a_scan_would(limits, name):
+    rank = judge = willmore.cost_reduction
+    kernels, rules = KERNELS["willmore"], Rules(FREE)
     scanned, searched, unguarded = (CROWDED[name]() for _ in range(3))
 
     def is_blocked(mesh, h):
         return bool(brute.blockers(mesh, h))
 
-    flips = greedy.run(descent, scanned, rules, build_bvh(scanned)).flips
-    for stage in dict.fromkeys((reach._replace(breadth=1), reach)):
-        rounds = 1 if stage != reach else MANY
+    flips = greedy.run(kernels, scanned, rules, build_bvh(scanned)).flips
+    for stage in dict.fromkeys((limits._replace(breadth=1), limits)):
+        rounds = 1 if stage != limits else MANY
         scan = Scan(rules, stage, rank, judge, is_blocked)
         flips += sum(scan.run(scanned, rounds))
     flips += sum(scan.doubts(scanned))
-    space = build_bvh(searched)
-    progress = variable_depth.run(kernel, descent, searched, rules, reach, space)
+    bvh = build_bvh(searched)
+    progress = variable_depth.run(kernels, searched, rules, bvh, Settings(limits))
     np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))
     assert progress.flips == flips
     assert progress.state == CONVERGED
-    search("willmore", unguarded, rules, reach)
+    search("willmore", unguarded, rules, limits)
     assert (faces_of(unguarded) != faces_of(searched)).any()
     # The index has followed the flips that were tried, made and taken back.
-    np.testing.assert_array_equal(space.box, refitted(space, searched).box)
+    np.testing.assert_array_equal(bvh.box, refitted(bvh, searched).box)
 
 
-@jit
-def find_chain(task, h):
-    """Call `chains.find_chain`, which takes kernels and so has no cache, for one energy."""
-    return chains.find_chain(task, h, willmore.cost_reduction, None)
-
-
-@jit
-def find_virtual_chain(task, h):
-    """Call it for chains that are ranked by the virtual energy."""
-    return chains.find_chain(task, h, virtual.cost_reduction, willmore.cost_reduction)
-
-
-def new_task(mesh, rules, reach):
-    """A task with every edge in the queue."""
-    pending = pending_queue.nothing_pending(mesh)
-    pending_queue.queue_all(mesh, pending)
-    touched = np.zeros(len(mesh.vertices), bool)
-    return chains.Task(
+def new_state(mesh, rules, limits):
+    """A state with every edge in the queue."""
+    queue = containers.empty_fifo(len(mesh.origin))
+    variable_depth.queue_all(mesh, queue)
+    changed = np.zeros(len(mesh.vertices), bool)
+    return chains.ChainState(
         mesh,
-        pending,
-        chains.no_chain(reach),
-        touched,
+        queue,
+        chains.empty_chain(limits),
+        changed,
         rules,
         inactive_bvh(),
         np.zeros(len(mesh.origin), bool),
@@ -257,24 +250,24 @@ def new_task(mesh, rules, reach):
 
 @pytest.mark.heavy
 @pytest.mark.parametrize("name", MESHES)
-@pytest.mark.parametrize("reach", [Reach(3, 1), Reach(5, 3)])
+@pytest.mark.parametrize("limits", [ChainLimits(3, 1), ChainLimits(5, 3)])
 @pytest.mark.slow
-def test_what_a_chain_tries_leaves_no_trace(reach, name):
+def test_what_a_chain_tries_leaves_no_trace(limits, name):
     """Undone flips give back all arrays bit for bit, also the corners, which a flip merges."""
     mesh = MESHES[name]()
-    before = states.copy_of(mesh)
-    task = new_task(mesh, Rules(FREE), reach)
+    before = multistart.copy_of(mesh)
+    state = new_state(mesh, Rules(FREE), limits)
     worked = 0
     for h in np.flatnonzero(mesh.twin != NONE):
-        best, work = find_chain(task, h)
+        best, work = find_willmore(state, h)
         worked += work
         for changed, kept in zip(mesh, before, strict=True):
             np.testing.assert_array_equal(changed, kept)
         # The prefix is worth what it says.
-        after = states.copy_of(mesh)
+        after = multistart.copy_of(mesh)
         for s in range(best[0]):
-            assert can_flip(after, task.chain.best[s])
-            flip(after, task.chain.best[s])
+            assert can_flip(after, state.chain.best[s])
+            flip(after, state.chain.best[s])
         drop = willmore.total(mesh) - willmore.total(after)
         assert best[2] == pytest.approx(drop, abs=1e-9)
         assert best[1] == best[2]
@@ -285,9 +278,9 @@ def test_what_a_chain_tries_leaves_no_trace(reach, name):
 def test_the_chains_from_one_edge_are_bounded():
     """However deep and broad they may be, and on a mesh so small that they go round and round."""
     mesh = build(*meshes.bumpy_sphere(20, seed=2))
-    before = states.copy_of(mesh)
-    task = new_task(mesh, Rules(FREE), Reach(30, 12))
-    best, work = find_chain(task, 0)
+    before = multistart.copy_of(mesh)
+    state = new_state(mesh, Rules(FREE), ChainLimits(30, 12))
+    best, work = find_willmore(state, 0)
     assert best[0] == 0
     # The last step that was begun is scored as a whole.
     assert chains.MOST_WORK <= work < chains.MOST_WORK + chains.RING
@@ -299,13 +292,13 @@ def test_the_chains_from_one_edge_are_bounded():
 @pytest.mark.parametrize("name", ["closed", "boundary", "shuffled"])
 def test_the_ring_is_where_cost_reductions_change(name):
     mesh = MESHES[name]()
-    ring = np.empty(chains.RING, np.int32)
     for h in np.flatnonzero(mesh.twin > np.arange(len(mesh.twin)))[::7]:
         if not can_flip(mesh, h):
             continue
-        flipped = states.copy_of(mesh)
+        flipped = multistart.copy_of(mesh)
         flip(flipped, h)
-        there = {ends(flipped, x) for x in ring[: chains.ring_around(flipped, h, ring)]}
+        state = new_state(flipped, Rules(FREE), ChainLimits(1, 1))
+        there = {ends(flipped, x) for x in state.chain.ring[: chains.find_ring(state, h)]}
         gains = [
             {ends(m, x): virtual.cost_reduction(m, x) for x in np.flatnonzero(m.twin != NONE)}
             for m in (mesh, flipped)
@@ -324,9 +317,9 @@ def test_two_flips_help_where_no_single_one_does(count, seed):
     vertices, faces = meshes.bumpy_sphere(count, seed)
     rules = Rules(GUARDED)
     stuck = build(vertices, faces)
-    assert search("willmore", stuck, rules, Reach(1, 1)).flips == 0
+    assert search("willmore", stuck, rules, ChainLimits(1, 1)).flips == 0
     mesh = build(vertices, faces)
-    progress = search("willmore", mesh, rules, Reach(2, 1))
+    progress = search("willmore", mesh, rules, ChainLimits(2, 1))
     assert progress.flips == 2
     assert progress.state == CONVERGED
     drop = reference.objective(vertices, faces) - reference.objective(vertices, faces_of(mesh))
@@ -339,8 +332,8 @@ def test_two_flips_help_where_no_single_one_does(count, seed):
 def test_chains_of_one_flip_are_plain_descent(name):
     greedily, searched = MESHES[name](), MESHES[name]()
     rules = Rules(GUARDED)
-    wanted = greedy.run(entries.greedy_willmore, greedily, rules)
-    found = search("willmore", searched, rules, Reach(1, 12))
+    wanted = greedy.run(KERNELS["willmore"], greedily, rules)
+    found = search("willmore", searched, rules, ChainLimits(1, 12))
     np.testing.assert_array_equal(faces_of(searched), faces_of(greedily))
     assert found[1:] == wanted[1:]
 
@@ -350,34 +343,33 @@ def test_chains_of_one_flip_are_plain_descent(name):
 @pytest.mark.parametrize("energy", ENERGIES)
 @pytest.mark.slow
 def test_deeper_is_never_worse_than_greedy_and_a_minimum(energy, name):
-    rules, reach = Rules(GUARDED), Reach(4, 3)
+    rules, limits = Rules(GUARDED), ChainLimits(4, 3)
     greedily, mesh = MESHES[name](), MESHES[name]()
-    kernel, descent, _, _ = ENERGIES[energy]
-    find = find_chain if energy == "willmore" else find_virtual_chain
-    greedy.run(descent, greedily, rules)
-    assert search(energy, mesh, rules, reach).state == CONVERGED
+    greedy.run(KERNELS[energy], greedily, rules)
+    find_chain = find_virtual if energy == "virtual willmore" else find_willmore
+    assert search(energy, mesh, rules, limits).state == CONVERGED
     assert willmore.total(mesh) <= willmore.total(greedily) + 1e-12
-    task = new_task(mesh, rules, reach)
+    state = new_state(mesh, rules, limits)
     for h in np.flatnonzero(mesh.twin != NONE):
         if h < mesh.twin[h]:
-            assert find(task, h)[0][0] == 0
-    again = states.copy_of(mesh)
-    state = kernel(task, Progress(0, 0, 0.0, WORKING))
-    assert state == (0, 0, 0.0, CONVERGED)
+            assert find_chain(state, h)[0][0] == 0
+    again = multistart.copy_of(mesh)
+    progress = KERNELS[energy].depth(state, Progress(0, 0, 0.0, WORKING))
+    assert progress == (0, 0, 0.0, CONVERGED)
     np.testing.assert_array_equal(mesh.origin, again.origin)
 
 
 @pytest.mark.heavy
 @pytest.mark.parametrize("energy", ENERGIES)
 def test_maxflips_stops_before_a_chain_that_exceeds_it(energy):
-    reach = Reach(3, 2)
-    everything = search(energy, MESHES["closed"](), Rules(GUARDED), reach)
+    limits = ChainLimits(3, 2)
+    everything = search(energy, MESHES["closed"](), Rules(GUARDED), limits)
     energies, flips = [], []
     for limit in range(everything.flips + 2):
         mesh = MESHES["closed"]()
-        progress = search(energy, mesh, Rules(GUARDED, True, limit), reach)
+        progress = search(energy, mesh, Rules(GUARDED, True, limit), limits)
         validate_connectivity(mesh)
-        assert limit - reach.depth - 1 < progress.flips <= limit or limit > everything.flips
+        assert limit - limits.depth - 1 < progress.flips <= limit or limit > everything.flips
         done = limit >= everything.flips
         assert progress.state == (CONVERGED if done else STOPPED)
         energies.append(willmore.total(mesh))
@@ -391,14 +383,14 @@ def test_maxflips_stops_before_a_chain_that_exceeds_it(energy):
 @pytest.mark.parametrize("monotone", [True, False])
 def test_any_energy_will_do_and_the_monotone_rule_watches_the_true_one(monotone):
     """Chain by chain: the area falls, and the Willmore energy never rises under the rule."""
-    rules, reach = Rules(GUARDED, monotone), Reach(4, 3)
-    kernels = entries.depth_area, entries.greedy_area
-    everything = variable_depth.run(*kernels, MESHES["closed"](), rules, reach)
+    rules, settings = Rules(GUARDED, monotone), Settings(ChainLimits(4, 3))
+    kernels = KERNELS["area"]
+    everything = variable_depth.run(kernels, MESHES["closed"](), rules, None, settings)
     totals = []
     for limit in range(everything.flips + 1):
         mesh = MESHES["closed"]()
         limited = rules._replace(maxflips=limit)
-        progress = variable_depth.run(*kernels, mesh, limited, reach)
+        progress = variable_depth.run(kernels, mesh, limited, None, settings)
         totals.append((area.total(mesh), willmore.total(mesh)))
         assert progress.gain == pytest.approx(totals[0][0] - totals[-1][0], abs=1e-9)
     areas, energies = np.array(totals).T
@@ -412,22 +404,22 @@ def test_any_energy_will_do_and_the_monotone_rule_watches_the_true_one(monotone)
 def test_locked_edges_stay_and_the_rest_improves(energy):
     mesh = MESHES["locked"]()
     locked = {ends(mesh, h) for h in np.flatnonzero(mesh.locked)}
-    assert search(energy, mesh, Rules(FREE), Reach(4, 3)).flips > 5
+    assert search(energy, mesh, Rules(FREE), ChainLimits(4, 3)).flips > 5
     assert locked == {ends(mesh, h) for h in np.flatnonzero(mesh.locked)}
 
 
 def test_every_flip_of_a_chain_passes_the_fold_guard():
     """The kept flips, made again one by one on the input."""
-    mesh, rules, reach = MESHES["closed"](), Rules(GUARDED), Reach(5, 3)
-    greedy.run(entries.greedy_willmore, mesh, rules)
-    task = new_task(mesh, rules, reach)
+    mesh, rules, limits = MESHES["closed"](), Rules(GUARDED), ChainLimits(5, 3)
+    greedy.run(KERNELS["willmore"], mesh, rules)
+    state = new_state(mesh, rules, limits)
     flips = 0
     for h in np.flatnonzero(mesh.twin > np.arange(len(mesh.twin))):
-        best, _ = find_chain(task, h)
+        best, _ = find_willmore(state, h)
         for s in range(best[0]):
-            assert can_flip(mesh, task.chain.best[s])
-            assert not guards.folds(mesh, task.chain.best[s], GUARDED)
-            flip(mesh, task.chain.best[s])
+            assert can_flip(mesh, state.chain.best[s])
+            assert not guards.folds(mesh, state.chain.best[s], GUARDED)
+            flip(mesh, state.chain.best[s])
             flips += 1
     assert flips > 10
 
@@ -446,7 +438,7 @@ def test_the_torus_ends_in_the_same_triangulation_whatever_the_start(count, leas
         mesh = build(vertices, faces)
         if seed is not None:
             _scramble(mesh, len(mesh.origin), np.random.default_rng(seed))
-        assert search("willmore", mesh, rules, Reach()).state == CONVERGED
+        assert search("willmore", mesh, rules, ChainLimits()).state == CONVERGED
         validate_connectivity(mesh)
         results.append(reference.edge_set(faces_of(mesh)))
         energy = willmore.total(mesh) - 2.0 * math.pi * len(vertices)
@@ -465,16 +457,16 @@ def _scramble(mesh, count, rng):
 @pytest.mark.heavy
 @pytest.mark.slow
 def test_the_kernel_comes_back_often_and_two_runs_are_equal():
-    def counting(task, progress):
+    def counting(state, progress):
         calls.append(progress)
-        return entries.depth_willmore(task, progress)
+        return KERNELS["willmore"].depth(state, progress)
 
     results = []
     for _ in range(2):
         calls = []
         mesh = build(*meshes.torus(800, None, 4))
         greedy_rules = Rules(GUARDED)
-        variable_depth.run(counting, entries.greedy_willmore, mesh, greedy_rules, Reach())
+        variable_depth.run(KERNELS["willmore"]._replace(depth=counting), mesh, greedy_rules)
         results.append(mesh)
         assert len(calls) > 5
         assert [p.flips for p in calls] == sorted(p.flips for p in calls)
@@ -483,14 +475,14 @@ def test_the_kernel_comes_back_often_and_two_runs_are_equal():
 
 
 @pytest.mark.parametrize(
-    ("reach", "wanted"),
+    ("limits", "wanted"),
     [
-        (Reach(1, 5), [1]),
-        (Reach(2, 5), [1, 5]),
-        (Reach(6, 5), [1, 5, 3, 2, 1, 1]),
-        (Reach(4, 1), [1, 1, 1, 1]),
-        (Reach(100, 12), [1, 12, 6, 3, 2] + [1] * 95),
+        (ChainLimits(1, 5), [1]),
+        (ChainLimits(2, 5), [1, 5]),
+        (ChainLimits(6, 5), [1, 5, 3, 2, 1, 1]),
+        (ChainLimits(4, 1), [1, 1, 1, 1]),
+        (ChainLimits(100, 12), [1, 12, 6, 3, 2] + [1] * 95),
     ],
 )
-def test_chains_branch_half_as_much_at_each_step(reach, wanted):
-    assert chains._widths(reach).tolist() == wanted
+def test_chains_branch_half_as_much_at_each_step(limits, wanted):
+    assert chains._widths(limits).tolist() == wanted

@@ -8,9 +8,9 @@ import pytest
 
 from meshlab_willmore.energy import virtual, virtual_at, virtual_closest, willmore
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
-from meshlab_willmore.search import entries, greedy, scoring, variable_depth
-from meshlab_willmore.search.chains import Reach
-from meshlab_willmore.search.rules import CONVERGED, Rules
+from meshlab_willmore.search import greedy, scoring, variable_depth
+from meshlab_willmore.search.compiled import AT, PLACED_KERNELS
+from meshlab_willmore.search.rules import CONVERGED, ChainLimits, Rules, Settings
 from tests import meshes
 from tests.search.test_greedy import FREE, GUARDED, MANY, MESHES, flips_by_scanning
 from tests.search.test_variable_depth import Scan
@@ -23,12 +23,8 @@ def cost_at_t(mesh, h):
 
 
 PLACES = {
-    "closest": (
-        entries.greedy_virtual_closest,
-        entries.depth_virtual_closest,
-        virtual_closest.cost_reduction,
-    ),
-    "at": (entries.greedy_virtual_at, entries.depth_virtual_at, cost_at_t),
+    "closest": (PLACED_KERNELS["closest"], virtual_closest.cost_reduction),
+    "at": (PLACED_KERNELS[AT], cost_at_t),
 }
 each_place = pytest.mark.parametrize("place", PLACES)
 
@@ -42,10 +38,10 @@ def rules(monotone=True, maxflips=MANY, fold=GUARDED, t=T):
 @pytest.mark.parametrize("monotone", [True, False])
 @each_place
 def test_the_queue_finds_what_a_scan_finds(place, monotone, name):
-    kernel, _, cost_reduction = PLACES[place]
+    kernels, cost_reduction = PLACES[place]
     scanned, searched = build(*MESHES[name]), build(*MESHES[name])
     flips, gain = flips_by_scanning(scanned, rules(monotone, fold=FREE), cost_reduction)
-    progress = greedy.run(kernel, searched, rules(monotone, fold=FREE))
+    progress = greedy.run(kernels, searched, rules(monotone, fold=FREE))
     validate_connectivity(searched)
     assert progress.flips == flips
     assert progress.gain == pytest.approx(gain, rel=1e-12)
@@ -57,14 +53,14 @@ def test_the_queue_finds_what_a_scan_finds(place, monotone, name):
 @pytest.mark.parametrize("name", ["closed", "boundary", "cube"])
 @each_place
 def test_chains_are_ranked_by_these_points(place, name):
-    descent, kernel, cost_reduction = PLACES[place]
+    kernels, cost_reduction = PLACES[place]
     arguments = meshes.bumpy_sphere(24, 1, bump=0.6) if name == "closed" else MESHES[name]
     scanned, searched = build(*arguments), build(*arguments)
-    reach = Reach(3, 1)
-    flips = greedy.run(descent, scanned, rules()).flips
-    scan = Scan(rules(), reach, cost_reduction, willmore.cost_reduction)
+    limits = ChainLimits(3, 1)
+    flips = greedy.run(kernels, scanned, rules()).flips
+    scan = Scan(rules(), limits, cost_reduction, willmore.cost_reduction)
     flips += sum(scan.run(scanned, rounds=100)) + sum(scan.doubts(scanned))
-    progress = variable_depth.run(kernel, descent, searched, rules(), reach)
+    progress = variable_depth.run(kernels, searched, rules(), None, Settings(limits))
     validate_connectivity(searched)
     np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))
     assert progress.flips == flips
@@ -97,7 +93,8 @@ def test_an_energy_is_asked_with_the_numbers_it_takes():
 
 SCRIPT = """
 from meshlab_willmore.optimize import optimize_flips
-from meshlab_willmore.search.entries import greedy_virtual_at
+from meshlab_willmore.search.compiled import AT, PLACED_KERNELS
+greedy_virtual_at = PLACED_KERNELS[AT].greedy
 from tests import meshes
 for t in (0.1, 0.2):
     optimize_flips(*meshes.cube(), virtualpoint=t, search="greedy")

@@ -4,7 +4,7 @@ import numpy as np
 
 from meshlab_willmore import guards
 from meshlab_willmore.energy import willmore
-from meshlab_willmore.energy.kinds import KINDS
+from meshlab_willmore.energy.table import ENERGIES
 from meshlab_willmore.mesh.build import build, faces_of
 from meshlab_willmore.mesh.halfedge import NONE, can_flip, flip, following
 from meshlab_willmore.search.rules import Rules
@@ -45,8 +45,8 @@ MESHES = {
 
 def rules_for(energy, fold=GUARDED):
     """The rules under which an energy is lowered; lengths are near 1 in these meshes."""
-    kind = KINDS[energy]
-    return Rules(fold, not kind.is_potential, is_potential=kind.is_potential, is_wide=kind.is_wide)
+    row = ENERGIES[energy]
+    return Rules(fold, not row.is_potential, is_potential=row.is_potential, is_wide=row.is_wide)
 
 
 def ends(mesh, h):

@@ -5,11 +5,9 @@ import pytest
 
 from meshlab_willmore.energy import willmore
 from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
-from meshlab_willmore.search import greedy, states, thorough, variable_depth
-from meshlab_willmore.search.chains import Reach
-from meshlab_willmore.search.kernels import KERNELS
-from meshlab_willmore.search.rules import CONVERGED, STOPPED
-from meshlab_willmore.search.thorough import Prelude
+from meshlab_willmore.search import greedy, multistart, variable_depth
+from meshlab_willmore.search.compiled import KERNELS
+from meshlab_willmore.search.rules import CONVERGED, STOPPED, ChainLimits, Settings
 from tests import meshes, reference
 from tests.search.ways import (
     FREE,
@@ -21,22 +19,23 @@ from tests.search.ways import (
     scramble,
 )
 
-SHORT = Reach(2, 1)
+SHORT = Settings(ChainLimits(2, 1))
 NAMES = ("delaunay", "mean curvature")
 
 
-def preludes(*names):
-    return [Prelude(KERNELS[name].greedy, rules_for(name)) for name in names]
+def with_starts(settings=SHORT):
+    """These settings, with the warm starts of the thorough search."""
+    return settings._replace(warm_starts=tuple((KERNELS[name], rules_for(name)) for name in NAMES))
 
 
-def by_hand(energy, mesh, reach):
+def by_hand(energy, mesh, settings):
     """The states that chains reach from each start, with the flips on the way."""
     kernels, rules, found = KERNELS[energy], rules_for(energy), []
     for name in (None, *NAMES):
-        trial, flips = states.copy_of(mesh), 0
+        trial, flips = multistart.copy_of(mesh), 0
         if name:
-            flips = greedy.run(KERNELS[name].greedy, trial, rules_for(name)).flips
-        flips += variable_depth.run(kernels.depth, kernels.greedy, trial, rules, reach).flips
+            flips = greedy.run(KERNELS[name], trial, rules_for(name)).flips
+        flips += variable_depth.run(kernels, trial, rules, None, settings).flips
         found.append((float(kernels.total(trial)), flips, trial))
     return found
 
@@ -48,7 +47,7 @@ def test_it_is_the_best_of_its_starts(energy, name):
     kernels, rules = KERNELS[energy], rules_for(energy)
     start, mesh = MESHES[name](), MESHES[name]()
     found = by_hand(energy, start, SHORT)
-    progress = thorough.run(kernels, preludes(*NAMES), mesh, rules, SHORT)
+    progress = multistart.run(kernels, mesh, rules, None, with_starts())
     validate_connectivity(mesh)
     total = kernels.total(mesh)
     # Never worse than chains from the mesh itself, and the best up to what counts as a gain.
@@ -70,17 +69,17 @@ def test_it_is_the_best_of_its_starts(energy, name):
 def test_another_start_wins_where_the_mesh_itself_is_stuck():
     kernels, rules = KERNELS["willmore"], rules_for("willmore")
     begin = scramble(build(*meshes.torus(200, None, 1)), 4)
-    alone, mesh = states.copy_of(begin), states.copy_of(begin)
-    variable_depth.run(kernels.depth, kernels.greedy, alone, rules, SHORT)
-    thorough.run(kernels, preludes(*NAMES), mesh, rules, SHORT)
+    alone, mesh = multistart.copy_of(begin), multistart.copy_of(begin)
+    variable_depth.run(kernels, alone, rules, None, SHORT)
+    multistart.run(kernels, mesh, rules, None, with_starts())
     assert willmore.total(mesh) < willmore.total(alone) - 1.0
 
 
 def test_without_other_starts_it_is_variable_depth():
     kernels, rules = KERNELS["willmore"], rules_for("willmore")
     one, other = MESHES["closed"](), MESHES["closed"]()
-    wanted = variable_depth.run(kernels.depth, kernels.greedy, one, rules, SHORT)
-    progress = thorough.run(kernels, [], other, rules, SHORT)
+    wanted = variable_depth.run(kernels, one, rules, None, SHORT)
+    progress = multistart.run(kernels, other, rules, None, SHORT)
     assert_equal(one, other)
     assert (progress.flips, progress.state) == (wanted.flips, wanted.state)
     assert progress.gain == pytest.approx(wanted.gain, abs=1e-9)
@@ -91,9 +90,9 @@ def test_without_other_starts_it_is_variable_depth():
 def test_maxflips_counts_the_flips_on_the_way(limit):
     kernels = KERNELS["willmore"]
     start, mesh, rules = MESHES["closed"](), MESHES["closed"](), rules_for("willmore")
-    everything = thorough.run(kernels, preludes(*NAMES), MESHES["closed"](), rules, SHORT)
+    everything = multistart.run(kernels, MESHES["closed"](), rules, None, with_starts())
     limited = rules._replace(maxflips=limit)
-    progress = thorough.run(kernels, preludes(*NAMES), mesh, limited, SHORT)
+    progress = multistart.run(kernels, mesh, limited, None, with_starts())
     assert progress.flips <= limit
     assert willmore.total(mesh) <= willmore.total(start)
     assert progress.state == (STOPPED if limit < 10**6 else CONVERGED)
@@ -111,12 +110,12 @@ def test_an_interrupt_leaves_the_mesh_as_it_was():
 
     kernels, calls, mesh = KERNELS["willmore"], [], MESHES["closed"]()
     with pytest.raises(KeyboardInterrupt):
-        thorough.run(
+        multistart.run(
             kernels._replace(depth=interrupted),
-            preludes(*NAMES),
             mesh,
             rules_for("willmore"),
-            Reach(3, 2),
+            None,
+            with_starts(Settings(ChainLimits(3, 2))),
         )
     assert_equal(mesh, MESHES["closed"]())
 
@@ -125,7 +124,7 @@ def test_the_best_of_all_triangulations_is_found():
     arrays = meshes.bumpy_sphere(6, 1, 0.6)
     mesh = build(*arrays)
     rules = rules_for("willmore", FREE)
-    thorough.run(KERNELS["willmore"], preludes(*NAMES), mesh, rules, Reach())
+    multistart.run(KERNELS["willmore"], mesh, rules, None, with_starts(Settings()))
     assert willmore.total(mesh) == pytest.approx(least_energy(*arrays)[0], abs=1e-9)
 
 
@@ -147,7 +146,7 @@ def test_the_torus_ends_equally_well_whatever_the_start(arguments, seeds, most):
         mesh = build(vertices, faces)
         if seed is not None:
             scramble(mesh, seed)
-        thorough.run(KERNELS["willmore"], preludes(*NAMES), mesh, rules, Reach())
+        multistart.run(KERNELS["willmore"], mesh, rules, None, with_starts(Settings()))
         assert willmore.total(mesh) - 2.0 * np.pi * len(vertices) <= most
         found.append(reference.edge_set(faces_of(mesh)))
     # All but a few edges agree; one flip that the fold guard forbids is the difference.

@@ -1,7 +1,8 @@
-"""Which edges a flip touches: those whose cost reduction, or leave to flip, it may change.
+"""The stencil of a flip: the edges whose cost reduction, or permission to flip, it may change.
 
 Each function takes what to do with such an edge: a jitted function of the task (of which only the
-mesh is used here), one of the edge's half-edges, and the energy, which is handed on.
+mesh is used here), one of the edge's half-edges, and an argument that is handed on. It returns
+whether to stop there, which only `visit_ring` and `visit_stencil` do.
 """
 
 import numpy as np
@@ -9,26 +10,47 @@ import numpy as np
 from ..mesh.halfedge import NONE, apex, following, next_in_fan, previous
 from ..mesh.jit import at, generic
 
+# Most edges of a ring.
+RING = 12
 # Edges at and opposite to the corners of a diamond where all is regular.
-IN_FANS = 72
+FAN_EDGES = 72
 
 
 @generic
-def visit_around(task, h, visit, energy):
-    """Visit the at most 13 edges whose cost reduction the flip of `h` has changed."""
+def visit_ring(task, h, visit, argument):
+    """Visit the sides of the diamond of `h`, and the other sides of the faces outside.
+
+    These at most `RING` edges and that of `h` itself are those whose cost reductions the flip of
+    `h` changes.
+
+    Returns
+    -------
+    bool
+        Whether a visit said to stop there.
+    """
     mesh = task.mesh
     t = mesh.twin[at(h)]
-    visit(task, h, energy)
     for side in (following(h), previous(h), following(t), previous(t)):
-        visit(task, side, energy)
+        if visit(task, side, argument):
+            return True
         outside = mesh.twin[at(side)]
-        if outside != NONE:
-            visit(task, following(outside), energy)
-            visit(task, previous(outside), energy)
+        if outside == NONE:
+            continue
+        if visit(task, following(outside), argument):
+            return True
+        if visit(task, previous(outside), argument):
+            return True
+    return False
 
 
 @generic
-def visit_fans(task, h, visit, energy):
+def visit_stencil(task, h, visit, argument):
+    """Visit the edge of `h`, and those of its ring."""
+    return visit(task, h, argument) or visit_ring(task, h, visit, argument)
+
+
+@generic
+def visit_fans(task, h, visit, argument):
     """Visit the edges at, and opposite to, the corners of the diamond of `h`.
 
     Returns
@@ -42,27 +64,27 @@ def visit_fans(task, h, visit, energy):
         # A vertex of several fans has no curvature, but its faces still have the other corners.
         x = spoke
         while True:
-            visit(task, x, energy)
-            visit(task, previous(x), energy)
-            visit(task, following(x), energy)
+            visit(task, x, argument)
+            visit(task, previous(x), argument)
+            visit(task, following(x), argument)
             edges += 3
             x = next_in_fan(mesh, x)
             if x == spoke:
                 break
-    return edges * edges // IN_FANS
+    return edges * edges // FAN_EDGES
 
 
 @generic
-def _visit_opposite(task, spoke, v, visit, energy):
+def _visit_opposite(task, spoke, v, visit, argument):
     """Visit the edge opposite to the origin of `spoke` if the apex on its other side is `v`."""
     side = following(spoke)
     outside = task.mesh.twin[at(side)]
     if outside != NONE and apex(task.mesh, outside) == v:
-        visit(task, side, energy)
+        visit(task, side, argument)
 
 
 @generic
-def visit_freed(task, h, visit, energy):
+def visit_freed(task, h, visit, argument):
     """Visit the edges whose flip was forbidden because it leads to i-j, which `h` was before.
 
     They lie opposite to i and to j, so it is enough to walk round one of both; as in `are_joined`
@@ -75,8 +97,8 @@ def visit_freed(task, h, visit, energy):
         return
     x, y = a, b
     while True:
-        _visit_opposite(task, x, j, visit, energy)
-        _visit_opposite(task, y, i, visit, energy)
+        _visit_opposite(task, x, j, visit, argument)
+        _visit_opposite(task, y, i, visit, argument)
         x, y = next_in_fan(mesh, x), next_in_fan(mesh, y)
         if (x == a and not mesh.several_fans[i]) or (y == b and not mesh.several_fans[j]):
             break

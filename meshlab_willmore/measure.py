@@ -12,7 +12,7 @@ from .energy import area, mean_curvature
 from .energy.angles import NO_ANGLES, add
 from .energy.gaussian_curvature import angle_defects
 from .energy.triangles import corners
-from .energy.willmore import edge_angle, edge_turn
+from .energy.willmore import edge_angle, edge_complex_angle
 from .guards import triangle_shape
 from .guards.bvh import build_bvh
 from .guards.intersections import mark_intersecting
@@ -259,7 +259,7 @@ def _add_angles(task, start, stop):
         end_counts = task.interior[at(mesh.origin[at(t)])]
         if not (start_counts or end_counts):
             continue
-        beta = edge_turn(mesh, h)
+        beta = edge_complex_angle(mesh, h)
         angles = add(angles, beta)
         if start_counts and end_counts:
             angles = add(angles, beta)

@@ -8,7 +8,7 @@ import math
 import sys
 
 from meshlab_willmore.energy.angles import angle, radians
-from meshlab_willmore.energy.sides import View, Views, side_angles, sides_of
+from meshlab_willmore.energy.wings import View, Views, side_angles, wings_of
 from meshlab_willmore.mesh.halfedge import diamond
 from meshlab_willmore.mesh.jit import generic, jit
 from meshlab_willmore.mesh.points import Point, subtract
@@ -36,14 +36,14 @@ def _inside(a, b, p, q, v, w):
 @jit
 def cost_reduction(mesh, h, t):
     """What the flip of `h` gains with both points in, in radians."""
-    quad, sides = diamond(mesh, h), sides_of(mesh, h)
+    quad, wings = diamond(mesh, h), wings_of(mesh, h)
     i, j, k, l = quad
     v, w = _between(i, j, t), _between(j, i, t)
     seen = Views(_view(w, j, k), _view(v, k, i), _view(v, i, l), _view(w, l, j))
-    before = _inside(i, j, k, l, v, w) + radians(side_angles(quad, sides, seen))
+    before = _inside(i, j, k, l, v, w) + radians(side_angles(quad, wings, seen))
     v, w = _between(k, l, t), _between(l, k, t)
     seen = Views(_view(v, j, k), _view(v, k, i), _view(w, i, l), _view(w, l, j))
-    after = _inside(k, l, i, j, v, w) + radians(side_angles(quad, sides, seen))
+    after = _inside(k, l, i, j, v, w) + radians(side_angles(quad, wings, seen))
     gain = 2.0 * (before - after)
     return gain if math.isfinite(gain) else -math.inf
 

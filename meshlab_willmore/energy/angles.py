@@ -25,7 +25,7 @@ from ..mesh.points import cross, dot, subtract
 CLEAR = 1e-6
 
 
-class Turn(NamedTuple):
+class ComplexAngle(NamedTuple):
     """An angle in [0, pi] as a complex number r + i s with s >= 0, of any length but zero."""
 
     r: float
@@ -47,7 +47,7 @@ NO_ANGLES = AngleSum(1.0, 0.0, 0.0)
 
 
 @inlined
-def turn(a_p, b_p, a_q, b_q):
+def complex_angle(a_p, b_p, a_q, b_q):
     """Return the intersection angle at the edge a-b of the faces (a, b, p) and (b, a, q).
 
     Parameters
@@ -58,7 +58,7 @@ def turn(a_p, b_p, a_q, b_q):
 
     Returns
     -------
-    Turn
+    ComplexAngle
         Of a length between 0.7 and 1; NaN if one of a, b coincides with one of p, q.
     """
     c1, n1 = dot(a_p, b_p), cross(a_p, b_p)
@@ -68,23 +68,23 @@ def turn(a_p, b_p, a_q, b_q):
     y = c1 * n2.y + c2 * n1.y - n3.y
     z = c1 * n2.z + c2 * n1.z - n3.z
     r, s = dot(n1, n2) - c1 * c2, math.sqrt(x * x + y * y + z * z)
-    # The 1-norm is cheaper than the length, and as good to keep products of turns in range.
+    # The 1-norm is cheaper than the length, and as good to keep products of angles in range.
     size = abs(r) + s
     # Divisions, since the inverse of the least numbers is out of range.
     size = size if size > 0.0 else math.nan
-    return Turn(r / size, s / size)
+    return ComplexAngle(r / size, s / size)
 
 
 @inner
 def angle(a, b, p, q):
-    """Return the angle in [0, pi] that `turn` returns as a complex number, for four points."""
-    beta = turn(subtract(a, p), subtract(b, p), subtract(a, q), subtract(b, q))
+    """Return in radians what `complex_angle` returns as a complex number, for four points."""
+    beta = complex_angle(subtract(a, p), subtract(b, p), subtract(a, q), subtract(b, q))
     return math.atan2(beta.s, beta.r)
 
 
 @inlined
 def add(total, beta):
-    """Return the sum `total` with the turn `beta` added."""
+    """Return the sum `total` with the angle `beta` added."""
     r = total.r * beta.r - total.s * beta.s
     s = total.r * beta.s + total.s * beta.r
     is_past = (s < 0.0) | ((s == 0.0) & (r < 0.0))

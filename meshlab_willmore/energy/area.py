@@ -13,21 +13,7 @@ from .triangles import ROUNDING, corners, has_coincident_corners, twice_area
 
 @inner
 def cost_reduction(mesh, h):
-    """Return by how much the area drops when `h` is flipped.
-
-    Parameters
-    ----------
-    mesh : Mesh
-    h : int
-        Half-edge with a twin.
-
-    Returns
-    -------
-    float
-        In squared units of the coordinates; positive where the flip helps, 0 where the areas
-        differ by rounding only, minus infinity where corners of the diamond coincide. It depends on
-        the two faces at `h` only.
-    """
+    """Return the drop of the area, in squared units of the coordinates."""
     quad = diamond(mesh, h)
     if has_coincident_corners(quad):
         return -math.inf

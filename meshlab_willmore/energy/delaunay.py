@@ -41,20 +41,9 @@ def _cotangents(a, b, c):
 
 @inner
 def cost_reduction(mesh, h):
-    """Return by how much the sum of the cotangents drops when `h` is flipped.
+    """Return the drop of the sum of the cotangents, a pure number.
 
-    Parameters
-    ----------
-    mesh : Mesh
-    h : int
-        Half-edge with a twin.
-
-    Returns
-    -------
-    float
-        A pure number; positive where the flip helps, 0 where it changes no more than rounding does,
-        minus infinity where corners of the diamond coincide or a face has more than `FLATTEST`
-        without being flat. It depends on the two faces at `h` only.
+    It is minus infinity also where a face has more than `FLATTEST` without being flat.
     """
     quad = diamond(mesh, h)
     if has_coincident_corners(quad):

@@ -19,7 +19,7 @@ from ..mesh.halfedge import NONE, apex, diamond, following, previous
 from ..mesh.jit import inner, jit
 from ..mesh.points import angle_between, point, subtract
 from .angles import NO_ANGLES, add, radians
-from .triangles import has_coincident_corners, turn_between
+from .triangles import complex_angle_between, has_coincident_corners
 
 FULL_TURN = 2.0 * math.pi
 
@@ -49,7 +49,7 @@ def _angles_outside(mesh, start, stop):
     t = mesh.twin[start]
     while t != NONE and following(t) != stop:
         ahead, behind = _sides_at(mesh, following(t))
-        angles = add(angles, turn_between(ahead, behind))
+        angles = add(angles, complex_angle_between(ahead, behind))
         t = mesh.twin[following(t)]
     return angles, t != NONE
 
@@ -70,27 +70,15 @@ def _drop(mesh, fan, sides):
     if not is_interior:
         return 0.0
     diagonal, a, b = sides
-    split = radians(add(add(outside, turn_between(diagonal, a)), turn_between(diagonal, b)))
-    whole = radians(add(outside, turn_between(a, b)))
+    halves = add(outside, complex_angle_between(diagonal, a))
+    split = radians(add(halves, complex_angle_between(diagonal, b)))
+    whole = radians(add(outside, complex_angle_between(a, b)))
     return abs(FULL_TURN - split) - abs(FULL_TURN - whole)
 
 
 @inner
 def cost_reduction(mesh, h):
-    """Return by how much the total absolute Gaussian curvature drops when `h` is flipped.
-
-    Parameters
-    ----------
-    mesh : Mesh
-    h : int
-        Half-edge with a twin.
-
-    Returns
-    -------
-    float
-        In radians; positive where the flip helps, minus infinity where corners of the diamond
-        coincide. It depends on all faces at its four corners.
-    """
+    """Return the drop of the total absolute Gaussian curvature, in radians."""
     quad = diamond(mesh, h)
     if has_coincident_corners(quad):
         return -math.inf

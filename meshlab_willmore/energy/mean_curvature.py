@@ -36,20 +36,9 @@ def _side(mesh, side, a, b, before, after):
 
 @inner
 def cost_reduction(mesh, h):
-    """Return by how much the total absolute mean curvature drops when `h` is flipped.
+    """Return the drop of the curvature, in units of the coordinates times radians.
 
-    Parameters
-    ----------
-    mesh : Mesh
-    h : int
-        Half-edge with a twin.
-
-    Returns
-    -------
-    float
-        In units of the coordinates times radians; positive where the flip helps, 0 where it changes
-        no more than rounding does, minus infinity where corners of the diamond coincide or a new
-        face has no normal. It depends on the two faces at `h` and on the four around them.
+    It is minus infinity also where a new face has no normal.
     """
     quad = diamond(mesh, h)
     if has_coincident_corners(quad):

@@ -5,7 +5,7 @@ import math
 from ..mesh.jit import inner
 from ..mesh.points import cross, dot, norm, point
 from ..mesh.rounding import good_normal
-from .angles import Turn
+from .angles import ComplexAngle
 
 # A difference of sums below this part of them is made of rounding. The faces themselves say how
 # much that is: beside a small part there may be a huge one.
@@ -29,14 +29,14 @@ def twice_area(a, b, c):
 
 
 @inner
-def turn_between(a, b):
-    """Return the angle between two vectors as a Turn of length 1; none if one of them is zero."""
+def complex_angle_between(a, b):
+    """Return the angle between two vectors as a ComplexAngle of length 1; 0 if one is zero."""
     r, normal = dot(a, b), cross(a, b)
     s2 = dot(normal, normal)
     size = math.sqrt(r * r + s2)
     if not size > 0.0:
-        return Turn(1.0, 0.0)
-    return Turn(r / size, math.sqrt(s2) / size)
+        return ComplexAngle(1.0, 0.0)
+    return ComplexAngle(r / size, math.sqrt(s2) / size)
 
 
 @inner
@@ -46,7 +46,7 @@ def _coincide(a, b):
 
 @inner
 def has_coincident_corners(quad):
-    """Tell whether two corners of the diamond are the same point: no energy judges such a flip."""
+    """Whether two corners of the diamond are the same point: no energy judges such a flip."""
     i, j, k, l = quad
     ends = _coincide(i, j) or _coincide(k, l)
     return ends or _coincide(i, k) or _coincide(i, l) or _coincide(j, k) or _coincide(j, l)

@@ -27,8 +27,8 @@ from ..mesh.halfedge import diamond
 from ..mesh.jit import inner, jit
 from ..mesh.points import dot, subtract
 from . import willmore
-from .angles import NO_ANGLES, Turn, add, radians
-from .triangles import corners, turn_between
+from .angles import NO_ANGLES, ComplexAngle, add, radians
+from .triangles import complex_angle_between, corners
 
 WILLMORE_WEIGHT = 2.0
 EXCESS_WEIGHT = 8.0
@@ -41,8 +41,8 @@ def _add_if_obtuse(angles, arriving, leaving):
     if not dot(arriving, leaving) > 0.0:
         return angles
     # Between the directions of the sides is the exterior angle, which is pi / 2 minus the excess.
-    exterior = turn_between(arriving, leaving)
-    return add(angles, Turn(exterior.s, exterior.r))
+    exterior = complex_angle_between(arriving, leaving)
+    return add(angles, ComplexAngle(exterior.s, exterior.r))
 
 
 @inner
@@ -56,19 +56,7 @@ def _add_excess(angles, a, b, c):
 
 @inner
 def cost_reduction(mesh, h):
-    """Return by how much the energy drops when `h` is flipped.
-
-    Parameters
-    ----------
-    mesh : Mesh
-    h : int
-        Half-edge with a twin.
-
-    Returns
-    -------
-    float
-        In radians; positive where the flip helps, minus infinity where an angle is undefined.
-    """
+    """Return the drop of the energy, in radians."""
     gain = WILLMORE_WEIGHT * willmore.cost_reduction(mesh, h)
     i, j, k, l = diamond(mesh, h)
     before = _add_excess(_add_excess(NO_ANGLES, i, j, k), j, i, l)

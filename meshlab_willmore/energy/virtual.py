@@ -15,8 +15,8 @@ from ..mesh.halfedge import Diamond, diamond
 from ..mesh.jit import inlined, inner
 from ..mesh.points import from_middle, subtract
 from . import willmore
-from .angles import add, difference, radians, turn
-from .sides import View, Views, side_angles, sides_of
+from .angles import add, complex_angle, difference, radians
+from .wings import View, Views, side_angles, wings_of
 
 
 @inlined
@@ -41,22 +41,22 @@ def _views(spokes):
 def _add_spokes(angles, quad, spokes):
     """Add the angles at the edges from the virtual vertex to the corners of the quad."""
     i, j, k, l = quad
-    angles = add(angles, turn(spokes.l, subtract(l, i), spokes.k, subtract(k, i)))
-    angles = add(angles, turn(spokes.j, subtract(j, l), spokes.i, subtract(i, l)))
-    angles = add(angles, turn(spokes.k, subtract(k, j), spokes.l, subtract(l, j)))
-    return add(angles, turn(spokes.i, subtract(i, k), spokes.j, subtract(j, k)))
+    angles = add(angles, complex_angle(spokes.l, subtract(l, i), spokes.k, subtract(k, i)))
+    angles = add(angles, complex_angle(spokes.j, subtract(j, l), spokes.i, subtract(i, l)))
+    angles = add(angles, complex_angle(spokes.k, subtract(k, j), spokes.l, subtract(l, j)))
+    return add(angles, complex_angle(spokes.i, subtract(i, k), spokes.j, subtract(j, k)))
 
 
 @inlined
-def virtual_angles(quad, sides, spokes):
+def virtual_angles(quad, wings, spokes):
     """Return the sum of the angles that the place of a virtual vertex decides.
 
     Parameters
     ----------
     quad : Diamond
         The points around the edge.
-    sides : Sides
-        What is outside of these.
+    wings : Wings
+        The faces outside.
     spokes : Diamond
         The vectors to the corners from the virtual vertex, wherever on i-j or on k-l it stands.
 
@@ -65,33 +65,21 @@ def virtual_angles(quad, sides, spokes):
     AngleSum
         Over the four spokes and the four sides of the quad; NaN where an angle is undefined.
     """
-    return _add_spokes(side_angles(quad, sides, _views(spokes)), quad, spokes)
+    return _add_spokes(side_angles(quad, wings, _views(spokes)), quad, spokes)
 
 
 @inlined
-def drop(quad, sides):
+def drop(quad, wings):
     """Return by how much the sum of the intersection angles drops, as in `willmore.drop`."""
-    before = virtual_angles(quad, sides, _spokes(quad, quad.i, quad.j))
-    after = virtual_angles(quad, sides, _spokes(quad, quad.k, quad.l))
+    before = virtual_angles(quad, wings, _spokes(quad, quad.i, quad.j))
+    after = virtual_angles(quad, wings, _spokes(quad, quad.k, quad.l))
     return difference(before, after)
 
 
 @inner
 def cost_reduction(mesh, h):
-    """Return by how much the virtual Willmore energy drops when `h` is flipped.
-
-    Parameters
-    ----------
-    mesh : Mesh
-    h : int
-        Half-edge with a twin.
-
-    Returns
-    -------
-    float
-        In radians; positive where the flip helps, minus infinity where an angle is undefined.
-    """
-    gain = 2.0 * radians(drop(diamond(mesh, h), sides_of(mesh, h)))
+    """Return the drop of the virtual Willmore energy, in radians."""
+    gain = 2.0 * radians(drop(diamond(mesh, h), wings_of(mesh, h)))
     return gain if math.isfinite(gain) else -math.inf
 
 

@@ -15,8 +15,8 @@ from ..mesh.halfedge import Diamond, diamond
 from ..mesh.jit import inner
 from ..mesh.points import from_between
 from .angles import difference, radians
-from .sides import sides_of
 from .virtual import virtual_angles
+from .wings import wings_of
 
 
 @inner
@@ -31,33 +31,22 @@ def spokes_at(quad, a, b, t):
 
 
 @inner
-def _drop(quad, sides, a, b, c, d, t):
+def _drop(quad, wings, a, b, c, d, t):
     """Return the drop, in radians, for the points that divide a-b and c-d as t to 1 - t."""
-    before = virtual_angles(quad, sides, spokes_at(quad, a, b, t))
-    after = virtual_angles(quad, sides, spokes_at(quad, c, d, t))
+    before = virtual_angles(quad, wings, spokes_at(quad, a, b, t))
+    after = virtual_angles(quad, wings, spokes_at(quad, c, d, t))
     return radians(difference(before, after))
 
 
 @inner
 def cost_reduction(mesh, h, t):
-    """Return by how much the virtual Willmore energy drops when `h` is flipped.
+    """Return the drop of the virtual Willmore energy, in radians.
 
-    Parameters
-    ----------
-    mesh : Mesh
-    h : int
-        Half-edge with a twin.
-    t : float
-        Place of the virtual points, in (0, 1).
-
-    Returns
-    -------
-    float
-        In radians; positive where the flip helps, minus infinity where an angle is undefined.
+    The virtual points are at the part `t`, in (0, 1), of the diagonals.
     """
-    quad, sides = diamond(mesh, h), sides_of(mesh, h)
+    quad, wings = diamond(mesh, h), wings_of(mesh, h)
     i, j, k, l = quad
     # Ends exchanged, and not 1 - t, which is rounded where t is small. Twice the sum of the angles,
     # and half of the sum over both ends: the factors cancel.
-    gain = _drop(quad, sides, i, j, k, l, t) + _drop(quad, sides, j, i, l, k, t)
+    gain = _drop(quad, wings, i, j, k, l, t) + _drop(quad, wings, j, i, l, k, t)
     return gain if math.isfinite(gain) else -math.inf

@@ -21,9 +21,9 @@ from ..mesh.halfedge import diamond
 from ..mesh.jit import inner
 from ..mesh.points import cross, dot, subtract
 from .angles import difference, radians
-from .sides import sides_of
 from .virtual import virtual_angles
 from .virtual_at import spokes_at
+from .wings import wings_of
 
 # In parts of the diagonal.
 MARGIN = 0.1
@@ -83,22 +83,10 @@ def closest(quad):
 
 @inner
 def cost_reduction(mesh, h):
-    """Return by how much the virtual Willmore energy drops when `h` is flipped.
-
-    Parameters
-    ----------
-    mesh : Mesh
-    h : int
-        Half-edge with a twin.
-
-    Returns
-    -------
-    float
-        In radians; positive where the flip helps, minus infinity where an angle is undefined.
-    """
-    quad, sides = diamond(mesh, h), sides_of(mesh, h)
+    """Return the drop of the virtual Willmore energy, in radians."""
+    quad, wings = diamond(mesh, h), wings_of(mesh, h)
     a, b = closest(quad)
-    before = virtual_angles(quad, sides, spokes_at(quad, quad.i, quad.j, a))
-    after = virtual_angles(quad, sides, spokes_at(quad, quad.k, quad.l, b))
+    before = virtual_angles(quad, wings, spokes_at(quad, quad.i, quad.j, a))
+    after = virtual_angles(quad, wings, spokes_at(quad, quad.k, quad.l, b))
     gain = 2.0 * radians(difference(before, after))
     return gain if math.isfinite(gain) else -math.inf

@@ -14,8 +14,8 @@ import math
 from ..mesh.halfedge import diamond
 from ..mesh.jit import inlined, inner, jit
 from ..mesh.points import subtract
-from .angles import angle, difference, radians, turn
-from .sides import View, Views, side_angles, sides_of
+from .angles import angle, complex_angle, difference, radians
+from .wings import View, Views, side_angles, wings_of
 
 
 @inlined
@@ -43,50 +43,38 @@ def _views_after(quad):
 
 
 @inlined
-def drop(quad, sides):
+def drop(quad, wings):
     """Return by how much the sum of the intersection angles drops in a flip.
 
     Parameters
     ----------
     quad : Diamond
         The points around the edge.
-    sides : Sides
-        What is outside of these.
+    wings : Wings
+        The faces outside.
 
     Returns
     -------
     AngleSum
         NaN where an angle is undefined.
     """
-    before = side_angles(quad, sides, _views_before(quad))
-    after = side_angles(quad, sides, _views_after(quad))
+    before = side_angles(quad, wings, _views_before(quad))
+    after = side_angles(quad, wings, _views_after(quad))
     return difference(before, after)
 
 
 @inner
 def cost_reduction(mesh, h):
-    """Return by how much the energy drops when `h` is flipped.
-
-    Parameters
-    ----------
-    mesh : Mesh
-    h : int
-        Half-edge with a twin.
-
-    Returns
-    -------
-    float
-        In radians; positive where the flip helps, minus infinity where an angle is undefined.
-    """
-    gain = 2.0 * radians(drop(diamond(mesh, h), sides_of(mesh, h)))
+    """Return the drop of the energy, in radians."""
+    gain = 2.0 * radians(drop(diamond(mesh, h), wings_of(mesh, h)))
     return gain if math.isfinite(gain) else -math.inf
 
 
 @inlined
-def edge_turn(mesh, h):
+def edge_complex_angle(mesh, h):
     """Return the intersection angle at `h`, which has a twin, as a complex number."""
     i, j, k, l = diamond(mesh, h)
-    return turn(subtract(i, k), subtract(j, k), subtract(i, l), subtract(j, l))
+    return complex_angle(subtract(i, k), subtract(j, k), subtract(i, l), subtract(j, l))
 
 
 @inner

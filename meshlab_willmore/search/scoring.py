@@ -15,7 +15,7 @@ from numba.extending import overload
 
 from ..energy import willmore
 from ..energy.angles import AngleSum, radians, rough
-from ..energy.sides import Outside, Sides
+from ..energy.wings import Wing, Wings
 from ..mesh.halfedge import NONE, Diamond, is_free
 from ..mesh.jit import at, generic, inlined, inner
 from ..mesh.points import Point
@@ -261,12 +261,12 @@ def _quad(rows, lane):
 @inlined
 def _wing(rows, place, lane):
     exists = rows[(_EXISTS + place) * LANES + lane] != 0.0
-    return Outside(_point(rows, _OUTSIDE + 3 * place, lane), exists)
+    return Wing(_point(rows, _OUTSIDE + 3 * place, lane), exists)
 
 
 @inlined
 def _wings(rows, lane):
-    return Sides(
+    return Wings(
         _wing(rows, 0, lane),
         _wing(rows, 1, lane),
         _wing(rows, 2, lane),
@@ -292,7 +292,7 @@ def find_drops(rows, drop):
     rows : (rows,) float64
         From `empty_rows`, filled; changed in place. Lanes that were not filled do no harm.
     drop : callable
-        Jitted function of a Diamond and its Sides, as `meshlab_willmore.energy.willmore.drop`.
+        Jitted function of a Diamond and its Wings, as `meshlab_willmore.energy.willmore.drop`.
     """
     for lane in range(LANES):
         angles = drop(_quad(rows, lane), _wings(rows, lane))

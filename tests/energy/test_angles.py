@@ -11,12 +11,12 @@ from meshlab_willmore.energy.angles import (
     CLEAR,
     NO_ANGLES,
     AngleSum,
-    Turn,
+    ComplexAngle,
     add,
     angle,
+    complex_angle,
     radians,
     rough,
-    turn,
 )
 from meshlab_willmore.mesh.points import Point
 from tests import reference
@@ -88,10 +88,10 @@ def test_coincident_neighbours_have_no_angle(same):
     assert math.isnan(angle(*points(quad)))
 
 
-def test_a_turn_has_a_length_that_products_bear():
+def test_a_complex_angle_has_a_length_that_products_bear():
     for quad in QUADS:
         a, b, p, q = 1e-12 * quad
-        beta = turn(*points([a - p, b - p, a - q, b - q]))
+        beta = complex_angle(*points([a - p, b - p, a - q, b - q]))
         assert math.sqrt(0.5) <= math.hypot(beta.r, beta.s) <= 1.0
         assert beta.s >= 0.0
 
@@ -101,7 +101,7 @@ def test_a_turn_has_a_length_that_products_bear():
 def test_a_sum_of_angles_is_the_sum_of_the_angles(betas):
     total = NO_ANGLES
     for beta in betas:
-        total = add(total, Turn(math.cos(beta), math.sin(beta)))
+        total = add(total, ComplexAngle(math.cos(beta), math.sin(beta)))
     assert radians(total) == pytest.approx(math.fsum(betas), abs=1e-14 * (1 + len(betas)))
 
 
@@ -109,12 +109,14 @@ def test_a_sum_of_angles_is_the_sum_of_the_angles(betas):
 def test_half_turns_are_counted_exactly(count):
     total = NO_ANGLES
     for _ in range(count):
-        total = add(total, Turn(-1.0, 0.0))
+        total = add(total, ComplexAngle(-1.0, 0.0))
     assert radians(total) == count * math.pi
 
 
 def test_an_undefined_angle_makes_the_sum_undefined():
-    assert math.isnan(radians(add(add(NO_ANGLES, Turn(math.nan, math.nan)), Turn(0.0, 1.0))))
+    assert math.isnan(
+        radians(add(add(NO_ANGLES, ComplexAngle(math.nan, math.nan)), ComplexAngle(0.0, 1.0)))
+    )
 
 
 @pytest.mark.parametrize("half_turns", [-2.0, -1.0, 0.0, 1.0])

@@ -264,6 +264,10 @@ def test_gain_is_the_drop_of_the_energy_in_its_own_unit(energy, search):
     assert shrunk.flips == result.flips
 
 
+def test_the_searches_are_the_choices_of_the_option():
+    assert tuple(optimize.SEARCHES) == SEARCH.choices
+
+
 @pytest.mark.heavy
 @pytest.mark.parametrize("search", SEARCH.choices)
 @pytest.mark.parametrize("energy", ENERGY.choices)

@@ -58,7 +58,7 @@ def virtual_angles(quad, wings, spokes):
     wings : Wings
         The faces outside.
     spokes : Diamond
-        The vectors to the corners from the virtual vertex, wherever on i-j or on k-l it stands.
+        The vectors to the corners from the virtual vertex, wherever on i-j or on k-l it is.
 
     Returns
     -------
@@ -83,6 +83,6 @@ def cost_reduction(mesh, h):
     return gain if math.isfinite(gain) else -math.inf
 
 
-# The virtual vertex stands in one edge at a time, so the virtual energy is no function of the mesh
+# The virtual vertex is in one edge at a time, so the virtual energy is no function of the mesh
 # (and greedy descent on it can go in circles). What it is meant to lower is the Willmore energy.
 total = willmore.total

@@ -55,7 +55,7 @@ def _beside_each_other(u, w, r):
 
 @inner
 def closest(quad):
-    """Return where on the diagonals i-j and k-l the virtual points stand.
+    """Return where on the diagonals i-j and k-l the virtual points are.
 
     Parameters
     ----------

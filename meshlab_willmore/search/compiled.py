@@ -92,7 +92,7 @@ def _kernels(module, is_potential):
 
 
 KERNELS = {name: _kernels(row.module, row.is_potential) for name, row in ENERGIES.items()}
-# Those for "virtual willmore" by where the virtual points are; `AT` stands for a number.
+# Those for "virtual willmore" by where the virtual points are; `AT`: at a number.
 PLACED_KERNELS = {
     place: _kernels(module, False) for place, module in {**VIRTUAL_POINTS, AT: AT}.items()
 }

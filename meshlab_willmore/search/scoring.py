@@ -124,13 +124,13 @@ def _empty_batch():
 
 
 @generic
-def _rank_batch(state, batch, count, energy, judge, helpful, waiting):
-    """Score the first `count` edges of a batch; judge those that help once a batch of them waits.
+def _rank_batch(state, batch, count, energy, judge, helpful, queued):
+    """Score the first `count` edges of a batch; judge those that help, a batch at a time.
 
     Returns
     -------
     int
-        How many wait, in the batch `helpful`; there were `waiting`.
+        How many are in the batch `helpful`; there were `queued`.
     """
     find_drops(batch.rows, energy.drop)
     for lane in range(count):
@@ -140,14 +140,14 @@ def _rank_batch(state, batch, count, energy, judge, helpful, waiting):
         if judge is None:
             _note(state, batch.edges[lane], 2.0 * radians(angles), 0.0)
             continue
-        copy_lane(batch.rows, lane, helpful.rows, waiting)
-        helpful.edges[waiting], gain = batch.edges[lane], helpful.gains[waiting]
+        copy_lane(batch.rows, lane, helpful.rows, queued)
+        helpful.edges[queued], gain = batch.edges[lane], helpful.gains[queued]
         gain[0], gain[1], gain[2] = angles.r, angles.s, angles.half_turns
-        waiting += 1
-        if waiting == LANES:
-            _judge_batch(state, helpful, waiting, judge)
-            waiting = 0
-    return waiting
+        queued += 1
+        if queued == LANES:
+            _judge_batch(state, helpful, queued, judge)
+            queued = 0
+    return queued
 
 
 @generic
@@ -166,7 +166,7 @@ def score_batches(state, start, stop):
     """Score the dirty edges from `start` up to `stop`, many at once."""
     batch, helpful = _empty_batch(), _empty_batch()
     # Of one type from the start, or the compiler would try several.
-    count, waiting = np.int64(0), np.int64(0)
+    count, queued = np.int64(0), np.int64(0)
     for place in range(start, stop):
         h = state.dirty[at(place)]
         forbid(state, h)
@@ -176,11 +176,11 @@ def score_batches(state, start, stop):
         batch.edges[count] = h
         count += 1
         if count == LANES:
-            waiting = _rank_batch(state, batch, count, energy, judge, helpful, waiting)
+            queued = _rank_batch(state, batch, count, energy, judge, helpful, queued)
             count = 0
-    waiting = _rank_batch(state, batch, count, energy, judge, helpful, waiting)
+    queued = _rank_batch(state, batch, count, energy, judge, helpful, queued)
     if judge is not None:
-        _judge_batch(state, helpful, waiting, judge)
+        _judge_batch(state, helpful, queued, judge)
 
 
 # --- rows and lanes ------------------------------------------------------------------------------

@@ -333,7 +333,7 @@ def refit(mesh, bvh, h):
         _refit_above(mesh, bvh, mesh.twin[h] // 3)
 
 
-@overload(refit)
+@overload(refit, inline="always")
 def _compiled_refit(mesh, bvh, h):
     return (lambda mesh, bvh, h: None) if is_no_bvh(bvh) else refit
 

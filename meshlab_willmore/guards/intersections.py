@@ -259,20 +259,20 @@ def blocking_face(mesh, bvh, h, since):
         `NONE` if there is none: the flip may be made. The face of `h` if the two new faces would
         intersect each other. As long as this face and the two at `h` stay, the answer stays.
     """
-    return _blocking_face(mesh, bvh, h, since) if bvh.active else NONE
+    if not bvh.active:
+        return NONE
+    # The pair of the new faces never changes.
+    if since == ANY_ROUND:
+        one, other = _new_faces(mesh, h)
+        if _are_refused(one, other, bvh.area_scale):
+            return np.int64(h // 3)
+    return _first_intersected(mesh, bvh, h, since, None)
 
 
-@overload(blocking_face)
+# Inlined, as Numba would compile it again in each process that compiles a caller.
+@overload(blocking_face, inline="always")
 def _compiled_blocking_face(mesh, bvh, h, since):
     return (lambda mesh, bvh, h, since: NONE) if is_no_bvh(bvh) else blocking_face
-
-
-@inner
-def _blocking_face(mesh, bvh, h, since):
-    # The pair of the new faces never changes.
-    if since == ANY_ROUND and _are_refused(*_new_faces(mesh, h), bvh.area_scale):
-        return np.int64(h // 3)
-    return _first_intersected(mesh, bvh, h, since, None)
 
 
 @inner

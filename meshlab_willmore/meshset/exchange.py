@@ -123,11 +123,11 @@ def _part(whole: Snapshot) -> Snapshot:
     renumbered = np.searchsorted(used, corners).astype(np.int32)
     faces["vertex_indices"] = renumbered[: 3 * len(faces)].reshape(-1, 3)
     edges = renumbered[3 * len(faces) :].reshape(-1, 2)
-    rows = {"v": used, "f": kept}
+    indices = {"v": used, "f": kept}
     return whole._replace(
         ply=whole.ply._replace(vertices=whole.ply.vertices[used], faces=faces, edges=edges),
         normals=whole.normals[used],
-        attributes=[a._replace(values=a.values[rows[a.kind[0]]]) for a in whole.attributes],
+        attributes=[a._replace(values=a.values[indices[a.kind[0]]]) for a in whole.attributes],
     )
 
 

@@ -17,7 +17,7 @@ def _measure(ms: pymeshlab.MeshSet, _: dict[str, Any]) -> tuple[dict[str, Any], 
     from ..measure import measures
 
     mesh = current_surface(ms)
-    with interrupts.kept():
+    with interrupts.preserved():
         totals = measures(mesh.transformed_vertex_matrix(), mesh.face_matrix())._asdict()
     return totals, ", ".join(f"{name} {value:g}" for name, value in totals.items())
 
@@ -47,7 +47,7 @@ def _write_scalar(ms: pymeshlab.MeshSet, _: dict[str, Any]) -> tuple[dict[str, A
     from ..measure import vertex_willmore_energy
 
     mesh = current_surface(ms)
-    with interrupts.kept():
+    with interrupts.preserved():
         energy = vertex_willmore_energy(mesh.vertex_matrix(), mesh.face_matrix())
     scalars.write_vertex_scalar(ms, energy)
     return {}, f"Range: {energy.min():g} {energy.max():g}"

@@ -77,7 +77,7 @@ def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any]
         )
     core = [p for p in _PARAMETERS if p.name not in (SELECTION.name, ALLOWLOSS.name)]
     given = {p.name: p.core_value(values[p.name]) for p in core}
-    with interrupts.kept():
+    with interrupts.preserved():
         result = optimize_flips(
             snapshot.vertices,
             snapshot.faces,

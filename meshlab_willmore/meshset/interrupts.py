@@ -22,7 +22,7 @@ def deferred() -> Iterator[None]:
 
 
 @contextmanager
-def kept() -> Iterator[None]:
+def preserved() -> Iterator[None]:
     """A Ctrl-C inside ends in `KeyboardInterrupt`, even if code inside drops the exception.
 
     Numba's compiler calls Python in places where an exception can only be printed.

@@ -171,7 +171,7 @@ def logical_ids(ms: MeshSet, name: object, values: dict[str, Any]) -> dict[str, 
 def _with_physical_ids(ms: MeshSet, known: FilterInfo, given: dict[str, Any]) -> dict[str, Any]:
     """The keywords with physical ids of layers in the place of logical ones.
 
-    What is an id, the filter's own types say, not the keyword's name.
+    The filter's own types decide what is an id, not the keyword's name.
     """
     physical = {}
     for keyword in _id_keywords(known, given):
@@ -214,14 +214,14 @@ def _choose_current(ms: MeshSet, name: object, before: Sequence[int]) -> None:
 
     It takes the one after the last deleted of its list, and at the end of the list the first.
     """
-    gone = [i for i in before if not native.is_there(ms, i)]
+    deleted = [i for i in before if not native.is_there(ms, i)]
     # A merged layer is made current whatever is deleted.
-    if not gone or name == _MERGE:
+    if not deleted or name == _MERGE:
         return
     now, there = native.current_id(ms), layers.shown_ids(ms)
-    if now is None or now in layers.parked(ms) or now == _after(max(gone), native.ids(ms)):
+    if now is None or now in layers.parked(ms) or now == _after(max(deleted), native.ids(ms)):
         by_logical = {ids.logical_id(ms, i): i for i in there}
-        successor = _after(ids.logical_id(ms, gone[-1]), list(by_logical))
+        successor = _after(ids.logical_id(ms, deleted[-1]), list(by_logical))
         native.make_current(ms, None if successor is None else by_logical[successor])
 
 

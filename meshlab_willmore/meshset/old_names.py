@@ -8,7 +8,7 @@ filters
     A filter's old name and today's, and parameters that have to be `given` for the same meaning.
     Where one filter became several, `by` is the parameter that says which one was meant.
 params
-    A parameter's old name, its type then, and today's name (null: it is gone, and did nothing
+    A parameter's old name, its type then, and today's name (null: it was removed, and did nothing
     where its value is the `idle` one). `as` says how the value changes: `times` a number, that
     number of `percent`, one of the `values` listed by what was written, or `part` of a colour.
 choices
@@ -17,7 +17,7 @@ defaults
     Values of parameters that are not given, where they have changed.
 expressions
     Parameters that are formulas.
-gone
+removed
     Filters that nothing took the place of, with the last version that had them.
 """
 
@@ -76,7 +76,7 @@ class OldFilter(NamedTuple):
     until: str
 
     def target(self, step: Step) -> Target:
-        """Today's filter of a step; the first, where the step does not tell."""
+        """Today's filter of a step; the first, where the step does not decide."""
         chosen = next((p.value for p in step.params if p.name.strip() == self.by), 0)
         try:
             return self.targets[int(chosen)]  # type: ignore[arg-type]
@@ -148,7 +148,7 @@ def defaults_of(filter_name: str) -> tuple[OldDefault, ...]:
 
 def last_version_with(name: str) -> str | None:
     """The last version of MeshLab that had a filter which nothing took the place of."""
-    return _file()["gone"].get(plain(name))
+    return _file()["removed"].get(plain(name))
 
 
 def age(version: str) -> int:

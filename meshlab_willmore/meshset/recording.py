@@ -174,8 +174,8 @@ def _in_step(entries: list[Ids | Step], recorded: int) -> list[Ids | Step]:
     extra = recorded - sum(not isinstance(entry, Step) for entry in entries)
     if extra < 0:
         native_places = [i for i, entry in enumerate(entries) if not isinstance(entry, Step)]
-        gone = set(native_places[:-extra])
-        return [entry for i, entry in enumerate(entries) if i not in gone]
+        dropped = set(native_places[:-extra])
+        return [entry for i, entry in enumerate(entries) if i not in dropped]
     unnoted: list[Ids | Step] = [NO_IDS] * extra
     has_steps = any(isinstance(entry, Step) for entry in entries)
     return [*entries, *unnoted] if has_steps else [*unnoted, *entries]

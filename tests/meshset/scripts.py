@@ -1,4 +1,4 @@
-"""What tests of filter scripts share."""
+"""What tests of filter scripts percentage."""
 
 import subprocess
 import sys
@@ -68,7 +68,7 @@ def energy(index, *choices):
     return param("energy", "RichEnum", value=index, enum_cardinality=9, **named)
 
 
-def share(name, value):
+def percentage(name, value):
     return param(name, "RichAbsPerc", value=value, min=0, max=100)
 
 

@@ -18,7 +18,7 @@ from tests.meshset.scripts import (
     energy,
     old_step,
     param,
-    share,
+    percentage,
     step,
     steps_of,
 )
@@ -77,16 +77,16 @@ CORPUS = [
     broken(
         f"step 1 ({REMESH}), parameter 'Targetlen': no such parameter; did you mean 'TargetLen'? "
         "Upper and lower case differ",
-        step(REMESH, share("Targetlen", 1)),
+        step(REMESH, percentage("Targetlen", 1)),
     ),
     broken(
         f"step 1 ({REMESH}), parameter 'TargetLength': no such parameter; did you mean "
         "'TargetLen'?",
-        step(REMESH, share("TargetLength", 1)),
+        step(REMESH, percentage("TargetLength", 1)),
     ),
     broken(
         f"step 1 ({REMESH}), parameter 'zzz': no such parameter; it has {REMESH_PARAMS}",
-        step(REMESH, share("zzz", 1)),
+        step(REMESH, percentage("zzz", 1)),
     ),
     broken(
         "step 1 (Planar flipping optimization), parameter 'qqq': no such parameter; it has "
@@ -100,11 +100,11 @@ CORPUS = [
     ),
     broken(
         f"step 1 ({REMESH}), parameter 'targetlen': is given twice, also as 'TargetLen'",
-        step(REMESH, share("TargetLen", 1), share("targetlen", 1)),
+        step(REMESH, percentage("TargetLen", 1), percentage("targetlen", 1)),
     ),
     broken(
         f"step 1 ({REMESH}), parameter 'TargetLen': is given twice, also as 'targetlen'",
-        step(REMESH, share("targetlen", 1), share("TargetLen", 1)),
+        step(REMESH, percentage("targetlen", 1), percentage("TargetLen", 1)),
     ),
     broken(
         f"step 1 ({FLIP_NAME}), parameter 'maxFlips': no such parameter; did you mean "
@@ -146,7 +146,7 @@ CORPUS = [
     broken(
         f"step 1 ({REMESH}), parameter 'FeatureDeg': can't be a percentage: a RichFloat has no "
         "range; give a number",
-        step(REMESH, share("FeatureDeg", "5%")),
+        step(REMESH, percentage("FeatureDeg", "5%")),
     ),
     broken(
         f"step 1 ({TAUBIN}), parameter 'lambda': 'half' is not a number",
@@ -266,8 +266,8 @@ def test_the_corpus_is_one_of_different_faults():
 
 def test_all_faults_are_listed_in_order():
     steps = steps_of(
-        step("qqqqq", share("x", 1)),
-        step(REMESH, share("zzz", 1), param("FeatureDeg", "RichInt", value=1)),
+        step("qqqqq", percentage("x", 1)),
+        step(REMESH, percentage("zzz", 1), param("FeatureDeg", "RichInt", value=1)),
         step(TAUBIN),
         step(FLIP_NAME, energy(7)),
         step("NXS Build"),
@@ -294,7 +294,7 @@ def test_faults_of_the_form_hide_none_of_the_names_or_values():
     assert said_of(
         step(TAUBIN, param("lambd", "RichFloat", value="x"), param("mu", "RichInt", value="y")),
         step("Taubin Smoth"),
-        step(REMESH, param("FeatureDeg", "RichFloat", value="x"), share("TargetLen", 0.5)),
+        step(REMESH, param("FeatureDeg", "RichFloat", value="x"), percentage("TargetLen", 0.5)),
         step(TAUBIN, param("Selected", "RichFloat", value=1)),
     ) == [
         (1, "lambd", "value='x' is not a number"),

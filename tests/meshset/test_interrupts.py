@@ -42,11 +42,11 @@ def test_an_interrupt_that_is_swallowed_on_the_way_is_not_lost():
         swallow()
         raise ValueError("a consequence")
 
-    with pytest.raises(KeyboardInterrupt), interrupts.kept():
+    with pytest.raises(KeyboardInterrupt), interrupts.preserved():
         swallow()
-    with pytest.raises(KeyboardInterrupt), interrupts.kept():
+    with pytest.raises(KeyboardInterrupt), interrupts.preserved():
         stumble()
-    with pytest.raises(ValueError, match="of its own"), interrupts.kept():
+    with pytest.raises(ValueError, match="of its own"), interrupts.preserved():
         raise ValueError("of its own")
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
@@ -54,7 +54,7 @@ def test_an_interrupt_that_is_swallowed_on_the_way_is_not_lost():
 def test_an_ignored_interrupt_stays_ignored():
     before = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
-        for context in (interrupts.kept, interrupts.deferred):
+        for context in (interrupts.preserved, interrupts.deferred):
             with context():
                 signal.raise_signal(signal.SIGINT)
     finally:

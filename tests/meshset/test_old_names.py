@@ -42,20 +42,20 @@ def test_each_old_name_leads_to_a_filter_of_today():
 def test_no_name_is_listed_twice():
     names = [entry["old"] for entry in TABLE["filters"]]
     assert len(names) == len(set(names))
-    assert not set(names) & TABLE["gone"].keys()
+    assert not set(names) & TABLE["removed"].keys()
     rules = [(e["filter"], e["old"], e["param"]) for e in TABLE["params"]]
     assert len(rules) == len(set(rules))
 
 
 @recorded_here
 def test_old_names_are_written_as_they_are_looked_up():
-    for name in [e["old"] for e in TABLE["filters"] + TABLE["params"]] + list(TABLE["gone"]):
+    for name in [e["old"] for e in TABLE["filters"] + TABLE["params"]] + list(TABLE["removed"]):
         assert old_names.plain(name) == name
 
 
 @recorded_here
 def test_filters_that_are_gone_are_gone():
-    for name in TABLE["gone"]:
+    for name in TABLE["removed"]:
         assert catalogue.find(name) is None, name
 
 
@@ -91,7 +91,7 @@ def test_each_entry_has_its_source():
     for entry in TABLE["filters"] + TABLE["params"] + TABLE["choices"]:
         assert old_names.age(entry["from"]) <= old_names.age(entry["until"]), entry
         assert entry["source"], entry
-    for version in [*TABLE["gone"].values(), *(e["until"] for e in TABLE["defaults"])]:
+    for version in [*TABLE["removed"].values(), *(e["until"] for e in TABLE["defaults"])]:
         assert old_names.age(version) >= 0
 
 

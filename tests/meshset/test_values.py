@@ -15,7 +15,7 @@ from tests.meshset.scripts import (
     energy,
     old_step,
     param,
-    share,
+    percentage,
     step,
     steps_of,
 )
@@ -32,8 +32,8 @@ def test_calls_have_keywords_and_values_of_the_filters_own_types():
                 REMESH,
                 param("Iterations", "RichInt", value=3),
                 param("Adaptive", "RichBool", value="true"),
-                share("TargetLen", "5%"),
-                share("maxsurfdist", 2),
+                percentage("TargetLen", "5%"),
+                percentage("maxsurfdist", 2),
                 param("FeatureDeg", "RichDynamicFloat", value=30, min=0, max=180),
             )
         ),

@@ -62,8 +62,9 @@ def load(ms: pymeshlab.MeshSet, path: Path) -> None:
     before = ms.mesh_number()
     native.forget_failures()
     try:
-        with killable(), native.muted():
+        with killable():
             _check_corners_of_off(path)
+            # Starting a process flushes Python's streams: they are muted in it only.
             try_in_process(path, _try, _why)
         with killable(), native.overheard(ms) as printed:
             _load_checked(ms, path)
@@ -81,7 +82,10 @@ def load(ms: pymeshlab.MeshSet, path: Path) -> None:
 def _try(path: Path) -> None:
     import pymeshlab
 
-    _load_checked(pymeshlab.MeshSet(), path)
+    from ..meshset import native
+
+    with native.muted():
+        _load_checked(pymeshlab.MeshSet(), path)
 
 
 def _load_checked(ms: pymeshlab.MeshSet, path: Path) -> None:

@@ -4,6 +4,7 @@ import json
 import os
 import signal
 import socket
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -300,6 +301,29 @@ def test_unusual_off_files_are_read(text):
 
 
 # In a process of its own
+
+BUFFERED = """
+from meshlab_willmore.cli import main
+print("before")
+main(["measure", "cube.ply", "--json"], standalone_mode=False)
+print("after")
+"""
+
+
+@LINUX
+@pytest.mark.slow
+def test_nothing_in_a_buffer_is_lost():
+    cube_file()
+    environment = {key: value for key, value in os.environ.items() if key != "PYTHONUNBUFFERED"}
+    done = subprocess.run(
+        [sys.executable, "-c", BUFFERED],
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stdout.startswith("before\n[")
+    assert done.stdout.endswith("]\nafter\n")
 
 
 def why(_, error):

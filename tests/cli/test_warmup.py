@@ -2,6 +2,8 @@
 
 import sys
 
+import numba
+
 from meshlab_willmore import warmup
 from meshlab_willmore.cli import main
 
@@ -41,7 +43,7 @@ def test_terminal_shows_what_is_compiled(monkeypatch):
 
 def test_error_is_one_line(monkeypatch):
     monkeypatch.setattr(warmup, "cache_folder", lambda: None)
-    monkeypatch.setattr(warmup.config, "DISABLE_JIT", 0)
+    monkeypatch.setattr(numba.config, "DISABLE_JIT", 0)
     result = call("warmup")
     assert result.exit_code == 1
     assert result.stderr.startswith("Error: Numba finds no folder that it can write its cache to")

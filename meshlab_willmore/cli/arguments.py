@@ -18,7 +18,7 @@ from .errors import WrongUse, reason
 from .formats import MANNERS, PARTS
 from .paths import Output, is_script
 
-LAYER_HELP = "a place from 0, c for the current layer, or x for the last one"
+LAYER_HELP = "an index from 0, c for the current layer, or x for the last one"
 
 # Options of meshlabserver that are gone, and what does their work.
 GONE = {

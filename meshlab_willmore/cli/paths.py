@@ -158,7 +158,7 @@ def _hint(path: Path) -> str:
 class Output(NamedTuple):
     """An output of `run`: a file or a pattern, the parts of the mesh and the layer to save.
 
-    No parts are those that PyMeshLab saves. A layer is a place, "c" or "x"; empty for none.
+    No parts are those that PyMeshLab saves. A layer is an index, "c" or "x"; empty for none.
     """
 
     name: str

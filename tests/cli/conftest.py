@@ -1,4 +1,4 @@
-"""What the commands' tests share: a way to call them, meshes in files, scripts."""
+"""Shared by the tests of commands: a way to call them, meshes in files, scripts."""
 
 import io
 import os

@@ -1,4 +1,4 @@
-"""`-o` with several names, and `-l`: a layer behind an output, a log before all of them."""
+"""The arguments of `run`: outputs with their masks and layers, inputs, logs."""
 
 import itertools
 from pathlib import Path

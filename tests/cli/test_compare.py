@@ -1,4 +1,4 @@
-"""`compare`: which rows there are, and what is told of them."""
+"""`compare`: its rows, table and messages."""
 
 import json
 from pathlib import Path

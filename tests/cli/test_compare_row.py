@@ -1,4 +1,4 @@
-"""The processes of a comparison: they end in time, alone, and leave nothing."""
+"""The subprocesses of a comparison: they end in time, alone, and leave nothing."""
 
 import signal
 import subprocess
@@ -18,9 +18,9 @@ from .conftest import cube_file, listing
 
 PATIENCE = 60
 STEP = 0.05
-# Native, and for ever.
+# Native, and endless.
 ENDLESS = Row("endless", "apply_coord_laplacian_smoothing", {"stepsmoothnum": 10**9})
-# PyMeshLab dies of it.
+# PyMeshLab crashes.
 DEADLY = Row(
     "deadly", "meshing_decimation_quadric_edge_collapse", {"targetfacenum": -5, "targetperc": 0.0}
 )
@@ -161,7 +161,7 @@ main(sys.argv[1:], prog_name="meshlab-willmore")
 
 
 def is_running(pid):
-    """Whether there is a process, and no zombie that nobody has asked for yet."""
+    """Whether there is a process, and not a zombie."""
     if Path("/proc/self/stat").exists():
         try:
             # After the name, which may have any characters.

@@ -31,9 +31,9 @@ def test_old_names_become_todays():
     Path("old.mlx").write_text(HISTORIC)
     result = call("convert", "old.mlx", "new.mlx")
     assert result.exit_code == 0
-    told = result.stdout.splitlines()
-    assert told[0] == "old.mlx -> new.mlx: 3 of 3 steps"
-    assert [line.partition(": ")[0] for line in told[1:]] == ["not as before"] * 2
+    printed = result.stdout.splitlines()
+    assert printed[0] == "old.mlx -> new.mlx: 3 of 3 steps"
+    assert [line.partition(": ")[0] for line in printed[1:]] == ["not as before"] * 2
     new = script.read("new.mlx")
     assert [(step.filter, [(p.name, p.type, p.value) for p in step.params]) for step in new] == [
         (
@@ -48,8 +48,8 @@ def test_old_names_become_todays():
 
 def test_meshlab_option_leaves_out_steps_that_are_gone():
     Path("old.mlx").write_text(HISTORIC)
-    told = call("convert", "old.mlx", "new.mlx", "--meshlab").stdout.splitlines()
-    assert told[-1] == "left out: step 2, Change the current layer"
+    printed = call("convert", "old.mlx", "new.mlx", "--meshlab").stdout.splitlines()
+    assert printed[-1] == "left out: step 2, Change the current layer"
     assert len(script.read("new.mlx")) == 2
 
 
@@ -92,8 +92,8 @@ def test_meshlab_option_leaves_out_our_steps():
 def test_meshlab_option_names_percentages():
     share = {"Threshold": ("RichAbsPerc", '5%" min="0" max="1')}
     script_file(("Simplification: Clustering Decimation", share), path="a.mlx")
-    told = call("convert", "a.mlx", "b.mlx", "--meshlab").stdout.splitlines()[1]
-    assert told.startswith("step 1, Simplification: Clustering Decimation: a percentage depends on")
+    line = call("convert", "a.mlx", "b.mlx", "--meshlab").stdout.splitlines()[1]
+    assert line.startswith("step 1, Simplification: Clustering Decimation: a percentage depends on")
 
 
 def test_script_with_errors_is_not_converted():

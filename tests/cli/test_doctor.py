@@ -1,4 +1,4 @@
-"""`doctor`: what is found on a machine, and the command that mends it."""
+"""`doctor`: what each check finds, and the command that fixes it."""
 
 import json
 import os

@@ -90,7 +90,7 @@ def test_machine_warnings_are_notes(monkeypatch):
 
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
 
-# Stands still at the worst moment: the mesh is written and not yet renamed.
+# Waits at the worst moment: the mesh is written and not yet renamed.
 SLOW = """
 import sys, time
 from pathlib import Path
@@ -174,7 +174,7 @@ def test_sigterm_acts_as_ctrl_c(run, monkeypatch):
     assert listing() == ["cube.ply", "script.mlx"]
 
 
-# As a native filter does, this lets no handler of Python run.
+# Like a native filter, this runs no Python handler.
 NATIVE = """
 import ctypes, sys
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""`filters`: all of them, some of them, one of them."""
+"""`filters`: the list, a search in it, and one filter."""
 
 import pymeshlab
 import pytest
@@ -66,7 +66,7 @@ def test_unknown_name_suggests_the_closest():
 
 
 def test_every_filter_is_explained():
-    # PyMeshLab has no defaults to tell where a mesh lacks what the filter needs.
+    # PyMeshLab has no defaults where a mesh lacks what the filter needs.
     names = pymeshlab.filter_list()
     results = {name: call("filters", name) for name in names}
     failed = {n: r.stderr for n, r in results.items() if r.exit_code or r.stderr}

@@ -124,8 +124,8 @@ def test_blanks_around_a_name_are_a_warning():
     path = script_file((" Remove Duplicate Vertices ", {}))
     result = call("lint", path)
     assert result.exit_code == 0
-    told = "has other blanks around its name than 'Remove Duplicate Vertices' in today's MeshLab"
-    assert told in result.stdout
+    printed = "has other blanks around its name than 'Remove Duplicate Vertices' in today's MeshLab"
+    assert printed in result.stdout
 
 
 def test_wrong_name_does_not_hide_other_scripts(tmp_path):

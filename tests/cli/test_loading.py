@@ -1,4 +1,4 @@
-"""Loading: what is wrong with an input is said of that one, and the others are done."""
+"""Loading: an error names the input that is wrong, and the others are processed."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""What loading leaves out is told, and nothing else."""
+"""What loading leaves out is noted, and nothing else."""
 
 import struct
 from pathlib import Path
@@ -10,7 +10,7 @@ from meshlab_willmore.cli import loading
 
 from .conftest import ONE_PIXEL, SAMPLES, call, cube_file, square_with_textures
 
-# Most of it is read from what PyMeshLab prints: these tests come first, as tests/conftest.py sorts.
+# PyMeshLab prints most of it: tests with this fixture run first (see tests/conftest.py).
 pytestmark = pytest.mark.usefixtures("capfd")
 
 PLY = """ply
@@ -29,7 +29,7 @@ end_header
 """
 
 
-def told(path, capfd):
+def notes_on(path, capfd):
     loading.loaded(Path(path))
     captured = capfd.readouterr()
     assert captured.out == ""
@@ -41,7 +41,7 @@ def told(path, capfd):
 @pytest.mark.parametrize("names", [("red.png", "blue.png"), ("gone.jpg",), ("tex/a.png", "b.png")])
 def test_missing_textures(names, capfd):
     path = square_with_textures(".", *names)
-    assert told(path, capfd) == [
+    assert notes_on(path, capfd) == [
         f"textures that were not found, and became dummy.png: {', '.join(names)}"
     ]
 
@@ -49,7 +49,7 @@ def test_missing_textures(names, capfd):
 def test_existing_textures_give_no_note(capfd):
     path = square_with_textures(".", "red.png")
     Path("red.png").write_bytes(ONE_PIXEL)
-    assert told(path, capfd) == []
+    assert notes_on(path, capfd) == []
 
 
 def test_texture_names_with_blanks(capfd):
@@ -57,19 +57,19 @@ def test_texture_names_with_blanks(capfd):
     Path("my red.png").write_bytes(ONE_PIXEL)
     Path("blue.png").write_bytes(ONE_PIXEL)
     odd = "textures with blanks in the name, which PyMeshLab can't read: my red.png"
-    assert told(path, capfd) == [odd]
+    assert notes_on(path, capfd) == [odd]
     Path("a.ply").write_text(
         PLY.format(more="", values="").replace(
             "ascii 1.0\n", "ascii 1.0\ncomment TextureFile my red.png\n"
         )
     )
-    assert told("a.ply", capfd) == [odd]
+    assert notes_on("a.ply", capfd) == [odd]
 
 
 def test_missing_material_file(capfd):
     path = square_with_textures(".", "red.png")
     Path("square.mtl").unlink()
-    (note,) = told(path, capfd)
+    (note,) = notes_on(path, capfd)
     assert note.startswith("some materials definitions were not found")
 
 
@@ -101,14 +101,14 @@ def as_stl():
 )
 def test_vertices_with_nan_or_infinite_coordinates(name, data, capfd):
     Path(name).write_bytes(data())
-    assert told(name, capfd) == [
+    assert notes_on(name, capfd) == [
         "vertices with NaN or infinite coordinates, left out with their faces: 2"
     ]
 
 
 def test_faces_with_a_corner_twice(capfd):
     Path("a.off").write_text("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 0 1\n")
-    assert told("a.off", capfd) == ["faces with a corner twice, left out: 1"]
+    assert notes_on("a.off", capfd) == ["faces with a corner twice, left out: 1"]
 
 
 @pytest.mark.parametrize(
@@ -134,7 +134,7 @@ def test_unread_properties(properties, unknown, capfd):
         PLY.format(more="".join(f"property {name}\n" for name in names), values=value * len(names))
     )
     expected = [f"properties that PyMeshLab does not read: {', '.join(unknown)}"] if unknown else []
-    assert told("a.ply", capfd) == expected
+    assert notes_on("a.ply", capfd) == expected
 
 
 def test_unread_elements(capfd):
@@ -143,18 +143,20 @@ def test_unread_elements(capfd):
         "element thing 1\nproperty float size\nelement none 0\nproperty float x\nend_header\n",
     )
     Path("a.ply").write_text(text + "5\n")
-    assert told("a.ply", capfd) == ["properties that PyMeshLab does not read: size (thing, float)"]
+    assert notes_on("a.ply", capfd) == [
+        "properties that PyMeshLab does not read: size (thing, float)"
+    ]
 
 
 def test_text_file_that_ends_early(capfd):
     corners = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
     face = f"facet normal 0 0 1\nouter loop\n{corners}endloop\nendfacet\n"
     Path("a.stl").write_text(f"solid a\n{face}endsolid a\n")
-    assert told("a.stl", capfd) == []
+    assert notes_on("a.stl", capfd) == []
     Path("b.stl").write_text(f"solid b\n{face}")
-    assert told("b.stl", capfd) == ["it ends before its endsolid; what comes after is missing"]
+    assert notes_on("b.stl", capfd) == ["it ends before its endsolid; what comes after is missing"]
     Path("c.xyz").write_text("0 0 0\n1 0 0\n0 1 0\n0 1\n")
-    assert told("c.xyz", capfd) == ["lines that are no points, left out: 1"]
+    assert notes_on("c.xyz", capfd) == ["lines that are no points, left out: 1"]
 
 
 @pytest.mark.parametrize(("step", "lost"), [(0.125, True), (8, False)])
@@ -168,7 +170,7 @@ def test_text_file_far_from_the_origin(step, lost, capfd):
     ]
     Path("a.stl").write_text(f"solid a\n{''.join(blocks)}endsolid a\n")
     note = "so far from the origin, different coordinates become the same in single precision"
-    assert (note in told("a.stl", capfd)) == lost
+    assert (note in notes_on("a.stl", capfd)) == lost
 
 
 def chunk(number, *parts):
@@ -191,7 +193,7 @@ def as_3ds(*names):
 def test_several_meshes_in_a_file(names, capfd):
     Path("a.3ds").write_bytes(as_3ds(*names))
     note = f"it holds {len(names)} meshes; the last one is used, the others are layers"
-    assert told("a.3ds", capfd) == [note] * (len(names) > 1)
+    assert notes_on("a.3ds", capfd) == [note] * (len(names) > 1)
 
 
 def test_ordinary_files_give_no_note(capfd):
@@ -218,13 +220,13 @@ OBJ = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\n"
 )
 def test_faces_with_missing_vertices(more, lost, capfd):
     Path("a.obj").write_text(OBJ + more)
-    assert told("a.obj", capfd) == [f"faces with vertices that do not exist, left out: {lost}"]
+    assert notes_on("a.obj", capfd) == [f"faces with vertices that do not exist, left out: {lost}"]
 
 
 @pytest.mark.parametrize("more", ["f 1 3 4\n", "f 1 2 3 4\n", "vn 0 0 1\nf 1//1 3//1 4//1\n"])
 def test_complete_faces_give_no_note(more, capfd):
     Path("a.obj").write_text(OBJ + more)
-    assert told("a.obj", capfd) == []
+    assert notes_on("a.obj", capfd) == []
 
 
 def test_unread_images_of_materials(capfd):
@@ -234,9 +236,9 @@ def test_unread_images_of_materials(capfd):
     text = materials.read_text()
     materials.write_text(text + "map_Ka red.png\nmap_Bump bumps.png\n  map_Ks shine.png\n")
     names = "bumps.png (map_Bump), shine.png (map_Ks)"
-    assert told(path, capfd) == [f"images of materials that PyMeshLab does not read: {names}"]
+    assert notes_on(path, capfd) == [f"images of materials that PyMeshLab does not read: {names}"]
 
 
 def test_texture_without_a_name(capfd):
     path = square_with_textures(".", "")
-    assert told(path, capfd) == ["textures without a name, which became dummy.png"]
+    assert notes_on(path, capfd) == ["textures without a name, which became dummy.png"]

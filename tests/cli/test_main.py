@@ -1,4 +1,4 @@
-"""The command line, as a person and as a pipe meet it."""
+"""The command line as a whole: help, exit codes, errors."""
 
 import errno
 import os

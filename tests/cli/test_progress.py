@@ -1,4 +1,4 @@
-"""The line that tells how far a command is."""
+"""The line with the progress of a command."""
 
 import contextlib
 import errno
@@ -19,7 +19,7 @@ from .conftest import FLIP, TAUBIN, Terminal, call, script_file
 LONG = "/a/very/long/path/that/nobody/would/ever/want/to/read/in/full/of/the/scan_0017.ply"
 WIDE = "\u9762" * 40
 
-# Other tests hear of it never.
+# The fixture of other tests changes it.
 IN_A_LOG = progress.SECONDS_IN_A_LOG
 
 

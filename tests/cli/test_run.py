@@ -1,4 +1,4 @@
-"""`run`: scripts on files, one after the other, and what is said about it."""
+"""`run`: scripts on files, with outputs, logs and errors."""
 
 import re
 import sys

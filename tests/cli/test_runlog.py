@@ -1,4 +1,4 @@
-"""`--log`: where a log may be written, and what is said when it can't be."""
+"""`--log`: where a log may be written, and its errors."""
 
 import os
 import re

@@ -1,4 +1,4 @@
-"""Saving: whole or not at all, with textures and materials, and never over somebody's file."""
+"""Saving: atomically, with textures and materials, and never over existing files."""
 
 import os
 import socket
@@ -76,13 +76,13 @@ def test_same_texture_may_exist(tmp_path):
 
 def test_different_texture_is_kept_unless_forced(tmp_path):
     other = tmp_path / IMAGE
-    other.write_bytes(b"somebody's picture")
+    other.write_bytes(b"another picture")
     with pytest.raises(
         OSError, match=rf"cannot write .*a\.ply: .*{IMAGE} already exists; use --force"
     ):
         save(textured_set(), tmp_path / "a.ply", SaveOptions(origin=SAMPLES))
     assert listing(tmp_path) == [IMAGE]
-    assert other.read_bytes() == b"somebody's picture"
+    assert other.read_bytes() == b"another picture"
     save(textured_set(), tmp_path / "a.ply", SaveOptions(force=True, origin=SAMPLES))
     assert other.read_bytes() == (SAMPLES / IMAGE).read_bytes()
 
@@ -152,8 +152,8 @@ def test_mask_lists_everything_that_is_saved(tmp_path):
 
 def test_part_that_the_format_cannot_hold_is_named(tmp_path, capsys):
     save(cube_set(), tmp_path / "a.stl", SaveOptions(parts=("vc", "fc", "wt")))
-    told = "Note: .stl files hold no vertex colours (vc) and no wedge texture coordinates (wt)\n"
-    assert capsys.readouterr().err == told
+    note = "Note: .stl files hold no vertex colours (vc) and no wedge texture coordinates (wt)\n"
+    assert capsys.readouterr().err == note
     assert (tmp_path / "a.stl").exists()
 
 
@@ -381,11 +381,11 @@ def test_formats_without_custom_attributes(tmp_path, capsys):
 def test_attributes_with_odd_names(tmp_path, capsys, name):
     path = tmp_path / "a.ply"
     save(with_attributes("good", name), path, SaveOptions())
-    # What stands behind the end of the header can't be told from it.
+    # Names that follow the end of the header can't be read from it.
     assert "good" in properties(path) or "end_header" in name
     assert same_mesh(path, cube_file(tmp_path / "b.ply"))
-    told = "Note: custom attributes with odd names are not saved\n" if name else ""
-    assert capsys.readouterr().err == told
+    note = "Note: custom attributes with odd names are not saved\n" if name else ""
+    assert capsys.readouterr().err == note
 
 
 def test_usual_permissions(tmp_path):

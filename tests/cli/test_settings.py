@@ -1,4 +1,4 @@
-"""`--set`: which step is meant, which parameter, and which value."""
+"""`--set`: the step, the parameter and the value."""
 
 import click
 import pytest

@@ -1,4 +1,4 @@
-"""Tables fit into the window, whatever the names in them."""
+"""Tables that fit into the window, and results of filters as text."""
 
 import numpy as np
 import pytest

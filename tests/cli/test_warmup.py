@@ -1,4 +1,4 @@
-"""`warmup`: what it says, and how it fails."""
+"""`warmup`: its output and its errors."""
 
 import sys
 

@@ -16,8 +16,10 @@ from meshlab_willmore.options import (
     MAXFLIPS,
     MONOTONE,
     OPTIONS,
+    SEARCH,
     SEARCHES,
     SELECTION,
+    VIRTUALPOINT,
     described,
 )
 from meshlab_willmore.search.stencil import RING
@@ -44,7 +46,7 @@ def test_degrees_of_a_wrong_type(value):
 
 def test_limits_and_flags():
     assert MAXFLIPS.checked(None) is None
-    assert MAXFLIPS.checked(np.int32(3)) == 3
+    assert [MAXFLIPS.checked(value) for value in (0, np.int32(3))] == [0, 3]
     assert MONOTONE.checked(np.bool_(True)) is True
     assert FOLDANGLE.checked(np.float32(90)) == 90.0
     with pytest.raises(ValueError, match="maxflips must not be negative, not -1"):
@@ -57,7 +59,24 @@ def test_limits_and_flags():
             MONOTONE.checked(wrong)
 
 
+def test_virtual_points_are_at_a_name_or_inside_the_edge():
+    assert [VIRTUALPOINT.checked(value) for value in ("closest", 0.25)] == ["closest", 0.25]
+    for wrong in (0.0, 1.0, np.nan, "0.5"):
+        with pytest.raises(ValueError, match="'midpoint', 'closest' or a number between 0 and 1"):
+            VIRTUALPOINT.checked(wrong)
+    with pytest.raises(TypeError, match="or a number between 0 and 1, not NoneType"):
+        VIRTUALPOINT.checked(None)
+
+
+def test_only_energy_and_search_are_nothing_but_a_choice():
+    assert [option.name for option in OPTIONS if option.is_choice] == ["energy", "search"]
+    with pytest.raises(ValueError, match="unknown search 'quick'; choose one of 'parallel greedy'"):
+        SEARCH.checked("quick")
+
+
 def test_an_integer_lies_within_its_limits():
+    limits = {option.name: option.most for option in OPTIONS if option.most is not None}
+    assert limits == {"depth": 100, "breadth": 12, "sweeps": 10**9}
     for option in OPTIONS:
         if option.most is None:
             continue

@@ -167,6 +167,20 @@ def bow_tie():
     return np.vstack([vertices, others]), np.vstack([faces, second]).astype(np.int32)
 
 
+def near_and_far(vertices):
+    """The vertices in steps of 2^-20, and all moved by 2^24: their differences are the same."""
+    near = np.round(2.0**20 * vertices) / 2.0**20
+    return near, near + 2.0**24
+
+
+def with_coincident_ends():
+    """A bumpy sphere in which two neighbours coincide. Returns also these two."""
+    vertices, faces = bumpy_sphere(24)
+    i, j = faces[0, :2].tolist()
+    vertices[j] = vertices[i]
+    return vertices, faces, {i, j}
+
+
 def outward(vertices, simplices):
     a, b, c = vertices[simplices].transpose(1, 0, 2)
     inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), a + b + c) < 0.0

@@ -20,8 +20,9 @@ from pathlib import Path, PurePosixPath
 
 from meshlab_willmore.mesh.kernel_cache import SOURCES
 
-from .faults import FAULTS
+from . import core, outside
 
+FAULTS = [*core.FAULTS, *outside.FAULTS]
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = "meshlab_willmore"
 NEEDED = (PACKAGE, "tests", "studies", "filter_scripts", "docs")

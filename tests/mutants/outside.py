@@ -159,21 +159,21 @@ SETS = [
         "meshset/layers.py",
         "return alone and not _is_held(ms, native.ids(ms)[0])",
         "return alone",
-        "tests/meshset/test_parked.py",
+        "tests/meshset/test_layers.py",
     ),
     Fault(
         "selected sides stay where they were",
         "meshset/edge_flags.py",
         "flags[changed] = (flags[changed] & ~mask) | bits",
         "flags[changed] = flags[changed] | bits",
-        "tests/meshset/test_exchange.py::test_side_bits_move_with_their_sides",
+        "tests/meshset/test_edge_flags.py",
     ),
     Fault(
         "inner edges of polygons are free",
         "meshset/edge_flags.py",
         "fixed = faux | faux.any(axis=1, keepdims=True)",
         "fixed = faux & False",
-        "tests/meshset/test_exchange.py",
+        "tests/meshset/test_edge_flags.py",
     ),
     Fault(
         "what PyMeshLab drops is not noticed",
@@ -187,7 +187,7 @@ SETS = [
         "meshset/exchange.py",
         "wedges[corners.ravel()].reshape(-1, 6)",
         "wedges.reshape(-1, 6)",
-        "tests/meshset/test_mappings.py tests/meshset/test_exchange.py",
+        "tests/meshset/test_textures.py",
     ),
 ]
 

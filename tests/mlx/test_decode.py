@@ -204,3 +204,10 @@ def test_signs_in_attributes_hide_no_other_fault():
         "<Nothing> has no place in <FilterScript> (line 4)",
         "step 2 (Conditional Vertex Selection), parameter 'other': value='x' is not a whole number",
     ]
+
+
+def test_an_attribute_without_its_end_is_no_text_with_signs():
+    text = script('<filter name="a & b>\n<Param name="p" type="RichInt" value="1"/></filter>')
+    assert error_of(text) == (
+        "s.mlx: is not well-formed XML: a character has no place there (line 3, column 18)"
+    )

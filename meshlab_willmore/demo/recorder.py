@@ -29,17 +29,7 @@ State = tuple[Stage, Surface]
 class Recorder:
     """Measures the stages, saves the meshes and draws the pictures.
 
-    Parameters
-    ----------
-    folder
-        Made if it doesn't exist; files of the same name in it are replaced.
-    notify
-        Called with one line for each thing that begins, or that cannot be done.
-
-    Raises
-    ------
-    OSError
-        If the folder cannot be written into.
+    Parameters and errors are those of `meshlab_willmore.demo.experiments.run_demo`.
     """
 
     def __init__(self, folder: Path, notify: Notify) -> None:

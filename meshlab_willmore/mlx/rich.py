@@ -9,6 +9,7 @@ import difflib
 import operator
 import re
 from collections.abc import Callable, Iterable, Mapping
+from functools import partial
 from typing import Any, NamedTuple
 
 from .steps import Param, Percentage, Value, quoted, shortened
@@ -56,17 +57,10 @@ def parse_int(text: str, low: int = -LARGEST_INT - 1, high: int = LARGEST_INT) -
     return int(number)
 
 
-def parse_index(text: str) -> int:
-    return parse_int(text, low=0)
-
-
-def parse_cardinality(text: str) -> int:
-    """How many numbered attributes follow."""
-    return parse_int(text, low=0, high=MOST_CHOICES)
-
-
-def parse_byte(text: str) -> int:
-    return parse_int(text, low=0, high=LARGEST_BYTE)
+# A mesh id, or the index of a choice; how many numbered attributes follow; a part of a colour.
+parse_index = partial(parse_int, low=0)
+parse_cardinality = partial(parse_int, low=0, high=MOST_CHOICES)
+parse_byte = partial(parse_int, low=0, high=LARGEST_BYTE)
 
 
 def parse_float(text: str) -> float:

@@ -37,17 +37,12 @@ _IMAGES = {".bmp", ".jpeg", ".jpg", ".png", ".tga", ".tif", ".tiff"}
 _COUNTS = 2
 
 
-def loaded(
-    *paths: Path, after: Callable[[pymeshlab.MeshSet, Path], None] | None = None
-) -> pymeshlab.MeshSet:
-    """A set with the meshes of files; `after` is called when each is the current one."""
+def loaded(path: Path) -> pymeshlab.MeshSet:
+    """A new set with the meshes of a file."""
     import pymeshlab
 
     ms = pymeshlab.MeshSet()
-    for path in paths:
-        load(ms, path)
-        if after is not None:
-            after(ms, path)
+    load(ms, path)
     return ms
 
 

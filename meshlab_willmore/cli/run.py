@@ -248,11 +248,14 @@ def _run_job(options: RunOptions, job: Job) -> str:
 
 def _load(job: Job) -> pymeshlab.MeshSet:
     """The inputs as layers of one set; the first is current, as in `meshlabserver`."""
+    import pymeshlab
+
+    ms = pymeshlab.MeshSet()
     with progress.shown(job.name) as status:
         status.begin("reading")
-        ms = loading.loaded(
-            *job.inputs, after=lambda ms, path: log.info("input %s (%s)", path, _size(ms))
-        )
+        for path in job.inputs:
+            loading.load(ms, path)
+            log.info("input %s (%s)", path, _size(ms))
     if len(job.inputs) > 1:
         ms.set_current_mesh(0)
     return ms

@@ -14,7 +14,18 @@ from click.testing import CliRunner
 import meshlab_willmore
 from meshlab_willmore.cli import main
 
-COMMANDS = ["convert", "demo", "doctor", "filters", "flip", "lint", "measure", "run", "warmup"]
+COMMANDS = [
+    "compare",
+    "convert",
+    "demo",
+    "doctor",
+    "filters",
+    "flip",
+    "lint",
+    "measure",
+    "run",
+    "warmup",
+]
 RUN_DEMO = "meshlab_willmore.demo.experiments.run_demo"
 WHOLE_RUN = """
 import sys
@@ -25,7 +36,6 @@ main(["demo", "--output", sys.argv[1]])
 """
 LIGHT_RUN = """
 import sys
-sys.argv[0] = "/usr/bin/meshlab-willmore"
 import meshlab_willmore
 assert "numba" not in sys.modules
 package = set(sys.modules)

@@ -12,7 +12,6 @@ import functools
 import json
 import re
 from collections.abc import Iterable
-from importlib import metadata
 from pathlib import Path
 from typing import Any
 
@@ -93,6 +92,9 @@ def missing() -> tuple[FilterInfo, ...]:
 
 def version() -> str:
     """The version of the installed PyMeshLab; "latest" if it is unknown."""
+    # Takes longer to import than this module with all that it needs.
+    from importlib import metadata
+
     try:
         return metadata.version("pymeshlab")
     except metadata.PackageNotFoundError:

@@ -9,8 +9,9 @@ import contextlib
 from collections.abc import Collection, Iterable, Iterator
 from typing import Any, NamedTuple
 
-from ..mlx.read import MOST_FAULTS
 from ..mlx.steps import (
+    MORE_FAULTS,
+    MOST_FAULTS,
     Fault,
     Gap,
     Param,
@@ -121,14 +122,13 @@ def examine(reading: Reading, mesh_ids: Collection[int] | None = None) -> Findin
 def _merged(read: Iterable[Fault], checked: Iterable[Fault]) -> tuple[Fault, ...]:
     """Faults by the number of the step; of each step, those of the reading come first."""
     faults = sorted([*read, *checked], key=lambda fault: fault.step)
-    faults = [fault for fault in faults if fault != _MORE]
-    return (*faults[:MOST_FAULTS], _MORE) if len(faults) > MOST_FAULTS else tuple(faults)
+    faults = [fault for fault in faults if fault != MORE_FAULTS]
+    return (*faults[:MOST_FAULTS], MORE_FAULTS) if len(faults) > MOST_FAULTS else tuple(faults)
 
 
 _LOOSE = (
     "is no XML: attributes have no blank between them, or are given twice; MeshLab still reads it"
 )
-_MORE = Fault(f"has more than {MOST_FAULTS} faults; these are the first")
 
 
 def is_todays(step: Step) -> bool:

@@ -14,15 +14,16 @@ from typing import Any
 
 from pymeshlab import MeshSet
 
-from ..mlx.read import read, read_bytes
 from ..mlx.steps import Param, Percentage, ScriptError, Step
-from ..mlx.write import write
 from ..temporary_files import temporary_folder
 from . import catalogue, native
 from .check import faults_of, is_todays, modernised, with_choices
 from .filter import Filter
 from .filter_info import keyword_of
 from .filters import FILTERS
+
+# Modules that read and write XML are imported where they are used: they take as long to import as
+# the rest of this package, and many programs have no scripts.
 
 # The logical ids of a native step, by the keyword of the parameter.
 Ids = dict[str, int]
@@ -44,6 +45,8 @@ def holds_more(ms: MeshSet) -> bool:
 
 def steps_of(ms: MeshSet) -> tuple[Step, ...]:
     """All steps of the script of `ms`."""
+    from ..mlx.read import read_bytes
+
     # These steps have run, so they are not checked.
     recorded = read_bytes(native.script_of(ms), _UNNAMED, strict=False)
     remaining = iter(recorded)
@@ -51,6 +54,21 @@ def steps_of(ms: MeshSet) -> tuple[Step, ...]:
     return tuple(
         entry if isinstance(entry, Step) else _with_ids(next(remaining), entry) for entry in entries
     )
+
+
+def save(ms: MeshSet, path: str) -> None:
+    """Write the script of `ms` into a file.
+
+    Raises
+    ------
+    OSError
+        If the file can't be written.
+    ScriptError
+        If a step has a value that no script can hold.
+    """
+    from ..mlx.write import write
+
+    write(path, steps_of(ms))
 
 
 def put(ms: MeshSet, steps: Iterable[Step], source: str) -> None:
@@ -84,6 +102,8 @@ def script_to_load(path: str) -> tuple[Step, ...] | None:
     ScriptError
         If a file that names one of our filters can't be read, or a pipe can't.
     """
+    from ..mlx.read import read
+
     is_pipe = _is_pipe(path)
     try:
         steps = read(path)
@@ -196,6 +216,8 @@ _PERCENT_RANGE = (("min", "0"), ("max", "100"))
 
 def listing(steps: Iterable[Step]) -> str:
     """The text that PyMeshLab prints of a script, which it reads from a file for it."""
+    from ..mlx.write import write
+
     with temporary_folder() as folder:
         path = folder / "script.mlx"
         write(path, map(_with_ranges, steps))

@@ -18,7 +18,6 @@ from typing import Any
 import pymeshlab
 from pymeshlab import MeshSet
 
-from ..mlx.write import write
 from . import ids, layers, native, native_calls, recording
 from .check import resolve
 from .filter import Filter, apply, values_of
@@ -255,7 +254,7 @@ def _load_filter_script(before: Callable, ms: MeshSet, filter_script_name: str |
 def _save_filter_script(before: Callable, ms: MeshSet, filter_script_name: str | bytes) -> None:
     if recording.holds_more(ms) and isinstance(filter_script_name, (str, bytes)):
         with _as_pymeshlab_error():
-            write(os.fsdecode(filter_script_name), recording.steps_of(ms))
+            recording.save(ms, os.fsdecode(filter_script_name))
     else:
         before(ms, filter_script_name)
 

@@ -21,7 +21,19 @@ from defusedxml.expatreader import DefusedExpatParser
 
 from . import rich
 from .decode import as_xml, bytes_of, text_of, with_entities
-from .steps import Fault, Gap, Param, Reading, ScriptError, Step, Value, quoted, shortened
+from .steps import (
+    MORE_FAULTS,
+    MOST_FAULTS,
+    Fault,
+    Gap,
+    Param,
+    Reading,
+    ScriptError,
+    Step,
+    Value,
+    quoted,
+    shortened,
+)
 
 ROOT = "FilterScript"
 FILTER = "filter"
@@ -31,7 +43,6 @@ OLD_PARAM = "xmlparam"
 # Where each element belongs.
 PARENTS = {FILTER: ROOT, OLD_FILTER: ROOT, PARAM: FILTER, OLD_PARAM: OLD_FILTER}
 DEEPEST = 100
-MOST_FAULTS = 100
 
 
 def read(path: str | PathLike[str]) -> tuple[Step, ...]:
@@ -170,7 +181,7 @@ class _Reader(ContentHandler, LexicalHandler):
     def add(self, text: str, param: str = "", in_step: bool = False) -> None:
         """Add a fault of the script, of the step that is open, or of its parameter."""
         if len(self.faults) == MOST_FAULTS:
-            self.faults.append(Fault(f"has more than {MOST_FAULTS} faults; these are the first"))
+            self.faults.append(MORE_FAULTS)
             raise _EnoughError
         step = self._steps[-1].filter if in_step else ""
         number = len(self._steps) if in_step else 0

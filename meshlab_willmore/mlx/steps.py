@@ -75,6 +75,11 @@ class Fault(NamedTuple):
         return _line(self)
 
 
+# Of a script no more are reported, but that there are more.
+MOST_FAULTS = 100
+MORE_FAULTS = Fault(f"has more than {MOST_FAULTS} faults; these are the first")
+
+
 class ScriptWarning(NamedTuple):
     """What one should know of a step that can be run.
 

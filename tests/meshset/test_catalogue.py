@@ -5,6 +5,7 @@ import os
 import re
 import subprocess
 import sys
+from importlib import metadata
 from pathlib import Path
 
 import pymeshlab
@@ -384,9 +385,9 @@ def test_a_filter_whose_plugin_is_not_there(monkeypatch):
 
 def test_an_unknown_version(monkeypatch):
     def unknown(_):
-        raise catalogue.metadata.PackageNotFoundError
+        raise metadata.PackageNotFoundError
 
-    monkeypatch.setattr(catalogue.metadata, "version", unknown)
+    monkeypatch.setattr(metadata, "version", unknown)
     assert catalogue.version() == "latest"
     assert find("create_cube").summary.endswith("/en/latest/filter_list.html#create_cube")
 

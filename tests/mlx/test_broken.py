@@ -4,8 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshlab_willmore.mlx.read import DEEPEST, MOST_FAULTS, read_bytes
-from meshlab_willmore.mlx.steps import Fault, ScriptError
+from meshlab_willmore.mlx.read import DEEPEST, read_bytes
+from meshlab_willmore.mlx.steps import MOST_FAULTS, Fault, ScriptError
 from meshlab_willmore.mlx.write import to_xml
 
 from .scripts import cases, element, error_of, one_param, script

@@ -111,7 +111,7 @@ def examine(reading: Reading, mesh_ids: Collection[int] | None = None) -> Findin
     if reading.is_loose:
         checker.warnings.append(ScriptWarning(_LOOSE))
     calls: list[Call] = []
-    with contextlib.suppress(_EnoughError):
+    with contextlib.suppress(_TooManyFaultsError):
         for number, step in enumerate(reading.steps, start=1):
             calls += checker.calls(number, step, reading.gaps.get(number, _NO_GAP))
         checker.warn_of_defaults()
@@ -187,7 +187,7 @@ def with_choices(
 # --- checking ----------------------------------------------------------------------------------
 
 
-class _EnoughError(Exception):
+class _TooManyFaultsError(Exception):
     """There are more faults than are reported."""
 
 
@@ -350,7 +350,7 @@ class _Checker:
 
     def _add(self, text: str, param: str = "") -> None:
         if len(self.faults) > MOST_FAULTS:
-            raise _EnoughError
+            raise _TooManyFaultsError
         name = shortened(self._step.filter)
         self.faults.append(Fault(text, self._number, name, shortened(param)))
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from . import ply
-from .snapshot import Snapshot
+from .snapshot import MeshSnapshot
 
 # Bits of a face's flags (vcg/simplex/face/base.h); bit i of a group belongs to side i, i+1.
 _BORDER_BIT = 6
@@ -18,7 +18,7 @@ _SIDE_BITS = (_BORDER_BIT, _SELECTED_BIT, _FAUX_BIT)
 _ALL_SIDES = 0b111
 
 
-def fixed_edges(snapshot: Snapshot) -> np.ndarray:
+def fixed_edges(snapshot: MeshSnapshot) -> np.ndarray:
     """Edges that no flip may take: inner and outer ones of polygons, and seams between textures.
 
     Returns
@@ -49,7 +49,7 @@ def _side_bits(flags: np.ndarray, first_bit: int) -> np.ndarray:
     return (flags[:, None] >> (first_bit + np.arange(3)) & 1).astype(bool)
 
 
-def _between_textures(snapshot: Snapshot) -> np.ndarray:
+def _between_textures(snapshot: MeshSnapshot) -> np.ndarray:
     """Whether the face across each side has another texture, (m, 3); False without such a face."""
     tails = snapshot.faces.astype(np.int64)
     heads = np.roll(tails, -1, axis=1)

@@ -23,7 +23,7 @@ from .edge_flags import carry_side_bits
 from .snapshot import (
     ATTRIBUTE_METHODS,
     MESH_FILE,
-    Snapshot,
+    MeshSnapshot,
     has_pixels,
     is_set_by_filter,
     plain_name,
@@ -45,7 +45,7 @@ _SAVED_IMAGE = "meshlab_willmore.png"
 _ONE_PIXEL = b"P1 1 1 0\n"
 
 
-def give(ms: pymeshlab.MeshSet, old: Snapshot, new: Snapshot) -> None:
+def give(ms: pymeshlab.MeshSet, old: MeshSnapshot, new: MeshSnapshot) -> None:
     """Replace the current mesh of `ms` by the mesh `new`.
 
     Parameters
@@ -53,7 +53,7 @@ def give(ms: pymeshlab.MeshSet, old: Snapshot, new: Snapshot) -> None:
     ms : pymeshlab.MeshSet
         Its current mesh is the one that `old` was taken from. Changed in place, or not at all if
         an error is raised.
-    old, new : Snapshot
+    old, new : MeshSnapshot
         The mesh before and after changes, see `with_faces`.
 
     Raises
@@ -82,7 +82,7 @@ def give(ms: pymeshlab.MeshSet, old: Snapshot, new: Snapshot) -> None:
             )
 
 
-def _size(snapshot: Snapshot) -> int:
+def _size(snapshot: MeshSnapshot) -> int:
     """Size of the files in bytes, about; images are hardly compressed."""
     mesh = snapshot.ply
     records = mesh.vertices.nbytes + snapshot.normals.nbytes + mesh.faces.nbytes + mesh.edges.nbytes
@@ -90,12 +90,12 @@ def _size(snapshot: Snapshot) -> int:
     return records + sum(_BYTES_OF_PIXEL * i.width() * i.height() for i in images)
 
 
-def with_faces(old: Snapshot, faces: np.ndarray, corners: np.ndarray) -> Snapshot:
+def with_faces(old: MeshSnapshot, faces: np.ndarray, corners: np.ndarray) -> MeshSnapshot:
     """The mesh with other faces.
 
     Parameters
     ----------
-    old : Snapshot
+    old : MeshSnapshot
     faces : (m, 3) int32 ndarray
         The new faces, slot by slot.
     corners : (m, 3) int32 ndarray
@@ -113,7 +113,7 @@ def with_faces(old: Snapshot, faces: np.ndarray, corners: np.ndarray) -> Snapsho
     return old._replace(ply=old.ply._replace(faces=records), normals=normals)
 
 
-def _part(whole: Snapshot) -> Snapshot:
+def _part(whole: MeshSnapshot) -> MeshSnapshot:
     """A mesh of a few of the faces and edges, with every kind of data of the whole mesh."""
     kept = _first_and_flagged(whole.ply.faces)
     faces = whole.ply.faces[kept]
@@ -139,7 +139,7 @@ def _first_and_flagged(records: np.ndarray) -> np.ndarray:
     return np.union1d(first, np.flatnonzero(records["flags"])[:_PART_SIZE])
 
 
-def _write(path: Path, snapshot: Snapshot) -> None:
+def _write(path: Path, snapshot: MeshSnapshot) -> None:
     """Write the PLY. It names the images; flags are left out if none is set."""
     mesh = snapshot.ply
     normals = dict(zip(_NORMAL, snapshot.normals.T, strict=True))
@@ -172,7 +172,7 @@ def _with_columns(records: np.ndarray, columns: dict[str, np.ndarray]) -> np.nda
     return new
 
 
-def _write_images(folder: Path, snapshot: Snapshot) -> None:
+def _write_images(folder: Path, snapshot: MeshSnapshot) -> None:
     """The images that the PLY names."""
     folder.mkdir(parents=True, exist_ok=True)
     for name, file_name in _file_names(snapshot.ply.textures).items():
@@ -201,7 +201,7 @@ def _leave_the_users_files(folder: Path, textures: tuple[str, ...]) -> None:
         os.chdir(folder)
 
 
-def _write_image(path: Path, name: str, snapshot: Snapshot) -> None:
+def _write_image(path: Path, name: str, snapshot: MeshSnapshot) -> None:
     """Write the image of a texture; one pixel if no texture has any, so that its name is kept."""
     path.parent.mkdir(parents=True, exist_ok=True)
     if snapshot.is_without_pixels:
@@ -217,7 +217,7 @@ def _save_image(image: pymeshlab.Image, path: Path) -> None:
     lossless.replace(path)
 
 
-def _load_whole(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
+def _load_whole(ms: pymeshlab.MeshSet, path: Path, snapshot: MeshSnapshot) -> None:
     """Load a mesh as `_load` does, and raise if something of it was lost."""
     _load(ms, path, snapshot)
     lost = _lost(ms, snapshot)
@@ -228,7 +228,7 @@ def _load_whole(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
         )
 
 
-def _load(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
+def _load(ms: pymeshlab.MeshSet, path: Path, snapshot: MeshSnapshot) -> None:
     """Load the mesh that `_write` wrote as a new current mesh, as a native filter leaves one."""
     if snapshot.is_without_pixels:
         _load_without_pixels(ms, path, snapshot)
@@ -243,7 +243,7 @@ def _load(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
         getattr(mesh, adder)(attribute.values, attribute.name)
 
 
-def _load_with_images(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
+def _load_with_images(ms: pymeshlab.MeshSet, path: Path, snapshot: MeshSnapshot) -> None:
     native.load(ms, path)
     textures = snapshot.ply.textures
     if is_set_by_filter(textures):
@@ -252,7 +252,7 @@ def _load_with_images(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> 
         native.apply(ms, "set_texture_per_mesh", textname=str(image))
 
 
-def _load_without_pixels(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
+def _load_without_pixels(ms: pymeshlab.MeshSet, path: Path, snapshot: MeshSnapshot) -> None:
     """Load the mesh with names of textures, but no images.
 
     PyMeshLab loads no such mesh. But a copy from another set has no images, and a copy of the copy
@@ -269,13 +269,13 @@ def _load_without_pixels(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) 
     ids.note_used(ms, first)
 
 
-def _reload(ms: pymeshlab.MeshSet, path: Path, snapshot: Snapshot) -> None:
+def _reload(ms: pymeshlab.MeshSet, path: Path, snapshot: MeshSnapshot) -> None:
     """Load the mesh as it was."""
     _write(path, snapshot)
     _load(ms, path, snapshot)
 
 
-def _lost(ms: pymeshlab.MeshSet, snapshot: Snapshot) -> list[str]:
+def _lost(ms: pymeshlab.MeshSet, snapshot: MeshSnapshot) -> list[str]:
     """In what the current mesh, as PyMeshLab read it, differs from the snapshot."""
     mesh, vertices, faces = ms.current_mesh(), snapshot.ply.vertices, snapshot.ply.faces
     names, face_names = vertices.dtype.names or (), faces.dtype.names or ()
@@ -314,7 +314,7 @@ def _same(left: np.ndarray, right: np.ndarray) -> bool:
     return np.array_equal(left, right) or (is_float and np.array_equal(left, right, equal_nan=True))
 
 
-def _images_to_be(snapshot: Snapshot) -> dict[str, pymeshlab.Image]:
+def _images_to_be(snapshot: MeshSnapshot) -> dict[str, pymeshlab.Image]:
     """The images under the names that the new mesh gives them."""
     names = snapshot.ply.textures
     given = {name: name for name in names} if is_set_by_filter(names) else _file_names(names)

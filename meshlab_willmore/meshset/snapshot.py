@@ -46,7 +46,7 @@ ATTRIBUTE_METHODS = {
 }
 
 
-class Snapshot(NamedTuple):
+class MeshSnapshot(NamedTuple):
     """Everything that PyMeshLab shows of a mesh.
 
     Attributes
@@ -108,7 +108,7 @@ class Snapshot(NamedTuple):
         return selected(self.ply.faces)
 
 
-def take(ms: pymeshlab.MeshSet) -> Snapshot:
+def take(ms: pymeshlab.MeshSet) -> MeshSnapshot:
     """Read the current mesh of `ms`; nothing of `ms` changes.
 
     The current mesh must have faces and be compact, as it is after every filter.
@@ -131,7 +131,7 @@ def take(ms: pymeshlab.MeshSet) -> Snapshot:
     if len(attributes) < len(attribute_keys):
         unsupported.append("custom attributes with odd names")
     normals = mesh.vertex_normal_matrix()
-    return Snapshot(records, normals, attributes, images, layers.identity_of(mesh), unsupported)
+    return MeshSnapshot(records, normals, attributes, images, layers.identity_of(mesh), unsupported)
 
 
 @contextmanager

@@ -19,6 +19,7 @@ import weakref
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 from typing import IO, Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
@@ -28,25 +29,19 @@ from pymeshlab import MeshSet
 from ..temporary_files import temporary_folder
 
 # PyMeshLab's own, not what `register` (of a module that was imported before) replaced them with.
-add = inspect.unwrap(MeshSet.add_mesh)
-clear = inspect.unwrap(MeshSet.clear)
-clear_script = inspect.unwrap(MeshSet.clear_filter_script)
-current_mesh = inspect.unwrap(MeshSet.current_mesh)
-defaults = inspect.unwrap(MeshSet.filter_parameter_values)
-id_of = inspect.unwrap(pymeshlab.Mesh.id)
-is_there = inspect.unwrap(MeshSet.mesh_id_exists)
-mesh = inspect.unwrap(MeshSet.mesh)
-show = inspect.unwrap(MeshSet.set_mesh_visibility)
-_apply_filter = inspect.unwrap(MeshSet.apply_filter)
-_current_mesh_id = inspect.unwrap(MeshSet.current_mesh_id)
+_own = SimpleNamespace(
+    **{name: inspect.unwrap(value) for name, value in vars(MeshSet).items() if callable(value)}
+)
+add = _own.add_mesh
+clear = _own.clear
+clear_script = _own.clear_filter_script
+current_mesh = _own.current_mesh
+defaults = _own.filter_parameter_values
 _iterate = inspect.unwrap(MeshSet.__iter__)
-_load_filter_script = inspect.unwrap(MeshSet.load_filter_script)
-_load_new_mesh = inspect.unwrap(MeshSet.load_new_mesh)
-_print_filter_script = inspect.unwrap(MeshSet.print_filter_script)
-_save_filter_script = inspect.unwrap(MeshSet.save_filter_script)
-_set_current_mesh = inspect.unwrap(MeshSet.set_current_mesh)
-_set_parameter_verbosity = inspect.unwrap(MeshSet.set_parameter_verbosity)
-_set_verbosity = inspect.unwrap(MeshSet.set_verbosity)
+id_of = inspect.unwrap(pymeshlab.Mesh.id)
+is_there = _own.mesh_id_exists
+mesh = _own.mesh
+show = _own.set_mesh_visibility
 
 # The id that no layer has.
 NO_LAYER = -1
@@ -85,7 +80,7 @@ class PerSet(Generic[T]):
 def apply(ms: MeshSet, name: str, /, **given: Any) -> dict[str, Any]:
     """Apply a native filter."""
     with in_order_if_verbose(ms):
-        return _apply_filter(ms, name, **given)
+        return _own.apply_filter(ms, name, **given)
 
 
 def load(ms: MeshSet, path: Path) -> None:
@@ -96,18 +91,18 @@ def load(ms: MeshSet, path: Path) -> None:
     absolute = path.absolute()
     with kept_working_folder():
         os.chdir(absolute.anchor)
-        _load_new_mesh(ms, str(absolute))
+        _own.load_new_mesh(ms, str(absolute))
 
 
 def make_current(ms: MeshSet, mesh_id: int | None) -> None:
     """Make a layer the current one, or none."""
-    _set_current_mesh(ms, NO_LAYER if mesh_id is None else mesh_id)
+    _own.set_current_mesh(ms, NO_LAYER if mesh_id is None else mesh_id)
 
 
 def current_id(ms: MeshSet) -> int | None:
     """The id of the current layer; None if there is none."""
     try:
-        return _current_mesh_id(ms)
+        return _own.current_mesh_id(ms)
     except pymeshlab.PyMeshLabException:
         return None
 
@@ -177,19 +172,19 @@ _WHOLE_SCRIPT = (b"</FilterScript>", b"<FilterScript/>")
 
 def _load_script(ms: MeshSet, path: Path) -> None:
     with muted():
-        _load_filter_script(ms, str(path))
+        _own.load_filter_script(ms, str(path))
 
 
 def script_listing(path: Path) -> str:
     """What PyMeshLab prints of the filter script in a file."""
     ms = MeshSet()
     _load_script(ms, path)
-    return printed(lambda: _print_filter_script(ms))
+    return printed(lambda: _own.print_filter_script(ms))
 
 
 def _script(ms: MeshSet, path: Path) -> bytes:
     """The filter script of `ms` as XML, which stays at `path`."""
-    _save_filter_script(ms, str(path))
+    _own.save_filter_script(ms, str(path))
     script = path.read_bytes() if path.exists() else b""
     # PyMeshLab reports no error if it can't write.
     if not script.rstrip().endswith(_WHOLE_SCRIPT):
@@ -226,13 +221,13 @@ def _quiet(ms: MeshSet) -> Iterator[None]:
     if before == Verbosity():
         yield
         return
-    _set_verbosity(ms, False)
-    _set_parameter_verbosity(ms, False)
+    _own.set_verbosity(ms, False)
+    _own.set_parameter_verbosity(ms, False)
     try:
         yield
     finally:
-        _set_verbosity(ms, bool(before.all))
-        _set_parameter_verbosity(ms, before.parameters)
+        _own.set_verbosity(ms, bool(before.all))
+        _own.set_parameter_verbosity(ms, before.parameters)
 
 
 @contextmanager
@@ -276,12 +271,12 @@ def overheard(ms: MeshSet) -> Iterator[list[str]]:
     lines: list[str] = []
     # The parameters of a call are printed by Python.
     with tempfile.TemporaryFile() as sink, contextlib.redirect_stdout(io.StringIO()):
-        _set_verbosity(ms, True)
+        _own.set_verbosity(ms, True)
         try:
             with _redirected((1, 2), sink):
                 yield lines
         finally:
-            _set_verbosity(ms, bool(verbosity(ms).all))
+            _own.set_verbosity(ms, bool(verbosity(ms).all))
         sink.seek(0)
         lines += sink.read().decode("utf-8", "surrogateescape").splitlines()
 

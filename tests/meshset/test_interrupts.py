@@ -71,14 +71,14 @@ def test_a_thread_that_is_not_the_main_one_can_flip(bumpy):
 
 def test_an_interrupted_scalar_filter_keeps_the_transform(bumpy, monkeypatch):
     bumpy.set_matrix(transformmatrix=random_transform(), freeze=False)
-    apply = native._apply_filter
+    apply = native._own.apply_filter
 
     def interrupted(ms, name, **given):
         if name == "set_matrix_identity":
             signal.raise_signal(signal.SIGINT)
         return apply(ms, name, **given)
 
-    monkeypatch.setattr(native, "_apply_filter", interrupted)
+    monkeypatch.setattr(native._own, "apply_filter", interrupted)
     with pytest.raises(KeyboardInterrupt):
         bumpy.compute_scalar_by_willmore_energy_per_vertex()
     np.testing.assert_array_equal(bumpy.current_mesh().transform_matrix(), random_transform())

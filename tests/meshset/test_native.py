@@ -37,7 +37,7 @@ def test_the_script_of_a_set_with_one_mesh_holds_the_flips_only(bumpy):
 def test_a_filter_script_that_cannot_be_kept_is_an_error_beforehand(bumpy, monkeypatch):
     bumpy.set_selection_none()
     before, faces = script_of(bumpy), bumpy.current_mesh().face_matrix()
-    monkeypatch.setattr(native, "_save_filter_script", lambda ms, path: None)
+    monkeypatch.setattr(native._own, "save_filter_script", lambda ms, path: None)
     with pytest.raises(pymeshlab.PyMeshLabException, match="filter script could not be written"):
         bumpy.apply_filter(FLIP)
     monkeypatch.undo()

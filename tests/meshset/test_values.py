@@ -159,7 +159,7 @@ def natively(tmp_path, xml):
     path.write_text(f"<FilterScript>{xml}</FilterScript>")
     ms = pymeshlab.MeshSet()
     with native.muted():
-        native._load_filter_script(ms, str(path))
+        native._own.load_filter_script(ms, str(path))
     ms.apply_filter_script()
     return ms
 

@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 # Bytes that can't be written on a full disk.
 _LITTLE = 65536
-# Between what is wrong and the command that mends it.
-MEND = "; mend it with: "
+# Between what is wrong and the command that fixes it.
+FIX = "; fix it with: "
 
 # The packages with libGL.so.1 and libOpenGL.so.0, which PyMeshLab needs.
 DEBIAN_PACKAGES = "apt-get install libgl1 libopengl0"
@@ -23,13 +23,13 @@ _NOT_LOADED = "PyMeshLab could not be loaded: "
 
 
 class Problem(NamedTuple):
-    """What is wrong, and a command that mends it."""
+    """What is wrong, and a command that fixes it."""
 
     text: str
     cure: str
 
     def __str__(self) -> str:
-        return f"{self.text}{MEND}{self.cure}"
+        return f"{self.text}{FIX}{self.cure}"
 
 
 class MachineError(Exception):

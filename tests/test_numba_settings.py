@@ -61,7 +61,7 @@ def test_the_first_use_says_which_variable_is_wrong_and_numba_prints_nothing(nam
     )
     assert done.stderr == ""
     assert done.stdout.startswith(f"the variable {name} is {value!r}, ")
-    assert done.stdout.endswith(f"; mend it with: unset {name}\n")
+    assert done.stdout.endswith(f"; fix it with: unset {name}\n")
 
 
 def test_several_wrong_variables_are_all_named(monkeypatch):
@@ -70,7 +70,7 @@ def test_several_wrong_variables_are_all_named(monkeypatch):
     both = str(join(numba_settings.wrong_settings()))
     assert "NUMBA_NUM_THREADS is '0'" in both
     assert "NUMBA_OPT is '9'" in both
-    assert both.endswith("; mend it with: unset NUMBA_NUM_THREADS; unset NUMBA_OPT")
+    assert both.endswith("; fix it with: unset NUMBA_NUM_THREADS; unset NUMBA_OPT")
 
 
 def test_a_cache_folder_that_cannot_be_used_is_named(monkeypatch, tmp_path):

@@ -27,7 +27,7 @@ def test_too_little_room_is_an_error_before_anything_is_written():
     assert str(caught.value).startswith(
         f"no room for temporary files in {place}: about 4294967296.0 GiB are needed, "
     )
-    assert str(caught.value).endswith(" are free; mend it with: export TMPDIR=/a/folder/with/room")
+    assert str(caught.value).endswith(" are free; fix it with: export TMPDIR=/a/folder/with/room")
 
 
 def test_the_folder_is_named_when_any_writer_runs_out_of_room(monkeypatch, tmp_path):
@@ -60,7 +60,7 @@ def test_no_place_at_all_for_temporary_files(monkeypatch):
     with pytest.raises(RoomError) as caught, temporary_folder():
         pass
     assert str(caught.value).startswith("no folder for temporary files: No usable temporary")
-    assert "; mend it with: export TMPDIR=" in str(caught.value)
+    assert "; fix it with: export TMPDIR=" in str(caught.value)
 
 
 def test_the_inner_of_two_folders_names_how_much_is_needed(monkeypatch):

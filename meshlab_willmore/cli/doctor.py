@@ -230,7 +230,7 @@ def _failure(name: str, answer: Answer, text: str, cure: str) -> Finding:
     """The finding for a process that failed; a wrong variable or a missing library has its cure."""
     _, found, message = answer.printed.rpartition(f"{machine.SettingError.__name__}: ")
     if found:
-        text, _, cure = message.splitlines()[0].partition(machine.MEND)
+        text, _, cure = message.splitlines()[0].partition(machine.FIX)
         return Finding(name, False, text, cure)
     libraries = machine.broken_libraries(answer.printed)
     if libraries:

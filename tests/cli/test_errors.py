@@ -17,8 +17,8 @@ from meshlab_willmore.meshset.play import play as play_steps
 
 from .conftest import FLIP, call, cube_file, listing, same_mesh, script_file
 
-FULL = RoomError("no room for temporary files in /tmp: 0.1 MiB are free; mend it with: a command")
-WRONG = SettingError("the variable NUMBA_OPT is wrong; mend it with: another command")
+FULL = RoomError("no room for temporary files in /tmp: 0.1 MiB are free; fix it with: a command")
+WRONG = SettingError("the variable NUMBA_OPT is wrong; fix it with: another command")
 
 
 @pytest.fixture(params=[FULL, WRONG], ids=["room", "setting"])
@@ -76,13 +76,13 @@ def test_machine_warnings_are_notes(monkeypatch):
     def warn(*arguments):
         import warnings
 
-        warnings.warn("the cache is nowhere; mend it with: a command", MachineWarning, stacklevel=1)
+        warnings.warn("the cache is nowhere; fix it with: a command", MachineWarning, stacklevel=1)
         return play_steps(*arguments)
 
     monkeypatch.setattr("meshlab_willmore.meshset.play.play", warn)
     result = call("run", script_file(FLIP), "-i", cube_file(), "-o", "out.ply")
     assert result.exit_code == 0
-    assert result.stderr == "Note: the cache is nowhere; mend it with: a command\n"
+    assert result.stderr == "Note: the cache is nowhere; fix it with: a command\n"
     assert Path("out.ply").exists()
 
 

@@ -165,7 +165,7 @@ def test_full_cache_is_noted_once(monkeypatch, capsys, home):
     progress._note_lost_kernels(True)
     cure = f"export NUMBA_CACHE_DIR={home / '.cache' / 'numba'}"
     text = "compiled kernels can't be saved in /the/cache: No space left on device"
-    assert capsys.readouterr().err == f"Note: {text}; mend it with: {cure}\n"
+    assert capsys.readouterr().err == f"Note: {text}; fix it with: {cure}\n"
 
 
 def test_missing_cache_folder_is_noted_after_compiling(monkeypatch, capsys, home):

@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial import ConvexHull
 
 from meshlab_willmore import optimize_flips
-from meshlab_willmore.mesh.build import build, validate_connectivity
+from meshlab_willmore.mesh.build import build
 from studies.triangulations import (
     CORNERS,
     FAN,
@@ -20,6 +20,7 @@ from studies.triangulations import (
     totals,
 )
 from tests import meshes, reference
+from tests.connectivity import validate_connectivity
 
 FANS = [FAN] * 6
 PUSH = 0.05

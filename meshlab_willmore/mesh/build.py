@@ -291,36 +291,3 @@ def interior_vertices(mesh):
         if mesh.twin[at(h)] == NONE:
             interior[at(mesh.origin[at(h)])] = False
     return interior & ~mesh.several_fans
-
-
-def following_all(h):
-    """Return the next half-edge in its face for each of the array `h`."""
-    return h + 1 - 3 * (h % 3 == 2)
-
-
-def validate_connectivity(mesh):
-    """Check the invariants of `meshlab_willmore.mesh.halfedge` on the whole mesh.
-
-    Raises
-    ------
-    ValueError
-        Names the first half-edge at which an invariant is broken.
-    """
-    h = np.flatnonzero(mesh.twin != NONE)
-    t = mesh.twin[h]
-    ahead = mesh.origin[following_all(np.arange(len(mesh.origin)))]
-    _refuse(h, mesh.twin[t] != h, "is not the twin of its twin")
-    _refuse(h, (mesh.origin[h] != ahead[t]) | (mesh.origin[t] != ahead[h]), "and its twin differ")
-    _refuse(h, mesh.locked[h] != mesh.locked[t], "is locked on one side only")
-    _refuse(np.arange(len(ahead)), mesh.origin == ahead, "starts and ends at the same vertex")
-    rebuilt = build(mesh.vertices, faces_of(mesh))
-    _refuse(
-        np.arange(len(ahead)), mesh.twin != rebuilt.twin, "has not the twin that the faces give"
-    )
-    fans = np.flatnonzero(mesh.several_fans != rebuilt.several_fans)
-    _refuse(fans, np.ones(len(fans), bool), "as a vertex changed its number of fans")
-
-
-def _refuse(which, broken, what):
-    if broken.any():
-        raise ValueError(f"half-edge {which[np.argmax(broken)]} {what}")

@@ -15,7 +15,7 @@ twin ``t``, by this picture:
 
 Invariants, before and after every flip: ``twin[twin[h]] == h``; twins run between the same two
 vertices in opposite directions; a face has three different vertices; no two edges with twins join
-the same two vertices. `meshlab_willmore.mesh.build.validate_connectivity` checks them.
+the same two vertices.
 """
 
 from typing import NamedTuple

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 from meshlab_willmore import guards
-from meshlab_willmore.mesh.build import build, validate_connectivity
+from meshlab_willmore.mesh.build import build
 from meshlab_willmore.mesh.halfedge import NONE
 from tests import meshes, reference
+from tests.connectivity import validate_connectivity
 
 CUBE_EDGES = {(a, b) for a in range(8) for b in range(8) if a < b and (a ^ b) in (1, 2, 4)}
 

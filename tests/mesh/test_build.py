@@ -8,10 +8,10 @@ from meshlab_willmore.mesh.build import (
     faces_of,
     interior_vertices,
     sort_by_vertex,
-    validate_connectivity,
 )
 from meshlab_willmore.mesh.halfedge import NONE
 from tests import meshes, reference
+from tests.connectivity import validate_connectivity
 
 MESHES = {
     "tetrahedron": meshes.tetrahedron(),

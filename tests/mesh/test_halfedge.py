@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from meshlab_willmore.mesh import halfedge
-from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
+from meshlab_willmore.mesh.build import build, faces_of
 from meshlab_willmore.mesh.halfedge import (
     NONE,
     apex,
@@ -19,6 +19,7 @@ from meshlab_willmore.mesh.halfedge import (
     previous,
 )
 from tests import meshes, reference
+from tests.connectivity import validate_connectivity
 
 QUICK = settings(derandomize=True, deadline=None, max_examples=25)
 MIXED = [

@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 
 from meshlab_willmore.energy import willmore
-from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
+from meshlab_willmore.mesh.build import build, faces_of
 from meshlab_willmore.search import greedy, multistart, variable_depth
 from meshlab_willmore.search.compiled import KERNELS
 from meshlab_willmore.search.rules import CONVERGED, STOPPED, ChainLimits, Settings
 from tests import meshes, reference
+from tests.connectivity import validate_connectivity
 from tests.search.ways import (
     FREE,
     MESHES,

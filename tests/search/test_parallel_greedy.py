@@ -10,7 +10,7 @@ from meshlab_willmore.energy import table, willmore
 from meshlab_willmore.guards.bvh import build_bvh, expand, inactive_bvh
 from meshlab_willmore.measure import self_intersections
 from meshlab_willmore.mesh import parallel
-from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
+from meshlab_willmore.mesh.build import build, faces_of
 from meshlab_willmore.mesh.halfedge import apex, flip, following, is_free, makes_new_edge, previous
 from meshlab_willmore.optimize import optimize_flips
 from meshlab_willmore.search import parallel_greedy, rounds
@@ -28,6 +28,7 @@ from meshlab_willmore.search.rules import (
 )
 from tests import meshes, reference
 from tests.combinations import BOTH_WILLMORE, ENERGIES, ENERGIES_AND_RULES
+from tests.connectivity import validate_connectivity
 from tests.search.ways import FREE, GUARDED, MESHES, rules_for, shuffled
 
 HEAVY = pytest.mark.heavy

@@ -8,7 +8,7 @@ import pytest
 from meshlab_willmore import guards
 from meshlab_willmore.energy import area, delaunay, virtual, willmore
 from meshlab_willmore.guards.bvh import build_bvh, inactive_bvh, refitted
-from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
+from meshlab_willmore.mesh.build import build, faces_of
 from meshlab_willmore.mesh.halfedge import NONE, apex, can_flip, flip, following, previous
 from meshlab_willmore.mesh.jit import jit
 from meshlab_willmore.search import chains, containers, greedy, multistart, variable_depth
@@ -23,6 +23,7 @@ from meshlab_willmore.search.rules import (
     Settings,
 )
 from tests import meshes, reference
+from tests.connectivity import validate_connectivity
 from tests.guards import brute
 from tests.search import ways
 from tests.search.ways import FREE, GUARDED, shuffled

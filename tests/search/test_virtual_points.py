@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 
 from meshlab_willmore.energy import virtual, virtual_at, virtual_closest, willmore
-from meshlab_willmore.mesh.build import build, faces_of, validate_connectivity
+from meshlab_willmore.mesh.build import build, faces_of
 from meshlab_willmore.search import greedy, scoring, variable_depth
 from meshlab_willmore.search.compiled import AT, PLACED_KERNELS
 from meshlab_willmore.search.rules import CONVERGED, ChainLimits, Rules, Settings
 from tests import meshes
+from tests.connectivity import validate_connectivity
 from tests.search.test_greedy import FREE, GUARDED, MANY, MESHES, flips_by_scanning
 from tests.search.test_variable_depth import Scan
 

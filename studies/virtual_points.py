@@ -12,12 +12,12 @@ from meshlab_willmore.energy import virtual, virtual_at, virtual_closest, willmo
 from meshlab_willmore.guards import fold_limits
 from meshlab_willmore.measure import measures
 from meshlab_willmore.mesh.build import build, faces_of
-from meshlab_willmore.mesh.halfedge import can_flip
 from meshlab_willmore.search import greedy
 from meshlab_willmore.search.rules import Rules
 from studies import models
 from studies.both_points import BOTH
 from tests import meshes
+from tests.connectivity import can_flip
 
 PLACES = ["midpoint", "closest", 0.4, 0.3, 0.2, 0.1, 0.01]
 HEAD = ["model", "virtual points", "flips", "W", "area", "M", "normal error"]

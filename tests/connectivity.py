@@ -1,9 +1,16 @@
-"""The invariants of half-edge connectivity."""
+"""The invariants of half-edge connectivity, and which flips keep them."""
 
 import numpy as np
 
 from meshlab_willmore.mesh.build import build, faces_of
-from meshlab_willmore.mesh.halfedge import NONE
+from meshlab_willmore.mesh.halfedge import NONE, is_free, makes_new_edge
+from meshlab_willmore.mesh.jit import jit
+
+
+@jit
+def can_flip(mesh, h):
+    """Whether the connectivity and the locks allow to flip `h`."""
+    return is_free(mesh, h) and makes_new_edge(mesh, h)
 
 
 def validate_connectivity(mesh):

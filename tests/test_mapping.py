@@ -8,11 +8,12 @@ import pytest
 
 from meshlab_willmore import guards
 from meshlab_willmore.mesh.build import build
-from meshlab_willmore.mesh.halfedge import can_flip, flip
+from meshlab_willmore.mesh.halfedge import flip
 from meshlab_willmore.optimize import optimize_flips
 from meshlab_willmore.options import ENERGY, SEARCH
 from meshlab_willmore.search import regions
 from tests import meshes, reference
+from tests.connectivity import can_flip
 
 BUNNY = Path(pymeshlab.__file__).parent / "tests" / "sample_meshes" / "bunny10k_textured.obj"
 # Coordinates are multiples of this, so that areas and their sums are exact.

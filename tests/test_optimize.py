@@ -12,7 +12,6 @@ from meshlab_willmore import guards, optimize
 from meshlab_willmore.energy import table, willmore
 from meshlab_willmore.measure import measures, triangle_shapes, willmore_energy
 from meshlab_willmore.mesh.build import build, faces_of
-from meshlab_willmore.mesh.halfedge import can_flip
 from meshlab_willmore.mesh.parallel import CHUNK
 from meshlab_willmore.optimize import FlipResult, optimize_flips
 from meshlab_willmore.options import ENERGY, SEARCH
@@ -20,7 +19,7 @@ from meshlab_willmore.search import parallel_greedy
 from meshlab_willmore.search.compiled import KERNELS
 from tests import meshes, reference
 from tests.combinations import BOTH_WILLMORE, ENERGIES, ENERGIES_AND_RULES
-from tests.connectivity import validate_connectivity
+from tests.connectivity import can_flip, validate_connectivity
 from tests.search.ways import scramble
 
 HEAVY = pytest.mark.heavy

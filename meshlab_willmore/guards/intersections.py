@@ -248,7 +248,7 @@ def blocking_face(mesh, bvh, h, since):
     bvh : Bvh
         Up to date with the mesh. If it is inactive, no flip is refused.
     h : int
-        Half-edge that `can_flip` allows.
+        Half-edge that is free and makes a new edge.
     since : int
         A round of flips. Faces that did not change in it or later are left out, and so is the pair
         of the new faces: these were tested before. `ANY_ROUND`: all count.

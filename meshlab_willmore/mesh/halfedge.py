@@ -210,16 +210,6 @@ def makes_new_edge(mesh, h):
 
 
 @inner
-def can_flip(mesh, h):
-    """Whether the connectivity and the locks allow to flip `h`.
-
-    Refused are edges without twin, locked edges, flips to an edge that exists anywhere in the mesh,
-    and flips after which the fan at i or j has fewer than three edges.
-    """
-    return is_free(mesh, h) and makes_new_edge(mesh, h)
-
-
-@inner
 def _glue(mesh, h, outer, is_locked):
     """Make `h` and `outer` (or `NONE`) twins; `outer` knows already whether it is locked."""
     mesh.twin[at(h)] = outer
@@ -230,7 +220,7 @@ def _glue(mesh, h, outer, is_locked):
 
 @inner
 def flip(mesh, h):
-    """Flip the edge of `h` in place; `can_flip` must have said yes.
+    """Flip the edge of `h` in place, which must be free and make a new edge.
 
     The face (i, j, k) becomes (k, i, l) in its slot, the face (j, i, l) becomes (l, j, k) in its
     slot. `h` and its twin stay the twins on the diagonal, now from l to k and from k to l; the

@@ -7,8 +7,9 @@ import pytest
 
 from meshlab_willmore.energy import virtual, willmore
 from meshlab_willmore.mesh.build import build, faces_of
-from meshlab_willmore.mesh.halfedge import apex, can_flip, flip
+from meshlab_willmore.mesh.halfedge import apex, flip
 from tests import meshes, reference
+from tests.connectivity import can_flip
 from tests.meshes import SMALL as MESHES
 
 ENERGIES = {

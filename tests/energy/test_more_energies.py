@@ -18,9 +18,10 @@ from meshlab_willmore.energy import (
 )
 from meshlab_willmore.energy.triangles import twice_area
 from meshlab_willmore.mesh.build import build, faces_of
-from meshlab_willmore.mesh.halfedge import apex, can_flip, flip
+from meshlab_willmore.mesh.halfedge import apex, flip
 from meshlab_willmore.mesh.points import Point
 from tests import meshes, reference
+from tests.connectivity import can_flip
 from tests.fuzz import energies
 from tests.meshes import SMALL as MESHES
 

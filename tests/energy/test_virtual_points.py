@@ -8,9 +8,10 @@ import pytest
 
 from meshlab_willmore.energy import virtual, virtual_at, virtual_closest
 from meshlab_willmore.mesh.build import build
-from meshlab_willmore.mesh.halfedge import Diamond, can_flip, diamond, flip
+from meshlab_willmore.mesh.halfedge import Diamond, diamond, flip
 from meshlab_willmore.mesh.points import Point
 from tests import meshes, reference
+from tests.connectivity import can_flip
 from tests.meshes import SMALL as MESHES
 
 ROUNDING = 2e-13

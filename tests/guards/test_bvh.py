@@ -25,10 +25,11 @@ from meshlab_willmore.guards.intersections import (
 )
 from meshlab_willmore.measure import self_intersections
 from meshlab_willmore.mesh.build import build, faces_of
-from meshlab_willmore.mesh.halfedge import NONE, can_flip, flip
+from meshlab_willmore.mesh.halfedge import NONE, flip
 from meshlab_willmore.mesh.jit import jit
 from meshlab_willmore.mesh.validate import to_unit_scale
 from tests import meshes, solids
+from tests.connectivity import can_flip
 from tests.guards import brute
 
 GIANT = [(9.0, 9.0, 0.1), (-9.0, 9.0, 0.0), (0.0, -19.0, 0.2)]

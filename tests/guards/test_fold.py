@@ -7,9 +7,10 @@ import pytest
 
 from meshlab_willmore import guards
 from meshlab_willmore.mesh.build import build
-from meshlab_willmore.mesh.halfedge import can_flip, flip
+from meshlab_willmore.mesh.halfedge import flip
 from meshlab_willmore.mesh.points import Point
 from tests import meshes
+from tests.connectivity import can_flip
 
 ON = guards.fold_limits(90.0)
 OFF = guards.fold_limits(180.0)

@@ -8,8 +8,9 @@ import pytest
 from meshlab_willmore import guards
 from meshlab_willmore.guards.texture import texture_coordinates
 from meshlab_willmore.mesh.build import build
-from meshlab_willmore.mesh.halfedge import apex, can_flip, flip
+from meshlab_willmore.mesh.halfedge import apex, flip
 from tests import meshes
+from tests.connectivity import can_flip
 from tests.search.ways import locked_edges
 
 ALL = guards.fold_limits(180.0)

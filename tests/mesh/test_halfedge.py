@@ -11,7 +11,6 @@ from meshlab_willmore.mesh.halfedge import (
     NONE,
     apex,
     are_joined,
-    can_flip,
     diamond,
     flip,
     following,
@@ -19,7 +18,7 @@ from meshlab_willmore.mesh.halfedge import (
     previous,
 )
 from tests import meshes, reference
-from tests.connectivity import validate_connectivity
+from tests.connectivity import can_flip, validate_connectivity
 
 QUICK = settings(derandomize=True, deadline=None, max_examples=25)
 MIXED = [

@@ -7,13 +7,13 @@ from meshlab_willmore import guards
 from meshlab_willmore.energy import virtual, willmore
 from meshlab_willmore.guards.bvh import inactive_bvh
 from meshlab_willmore.mesh.build import build, faces_of
-from meshlab_willmore.mesh.halfedge import NONE, can_flip, flip
+from meshlab_willmore.mesh.halfedge import NONE, flip
 from meshlab_willmore.search import annealing, greedy, multistart, scoring
 from meshlab_willmore.search.compiled import KERNELS
 from meshlab_willmore.search.containers import NEVER
 from meshlab_willmore.search.rules import CONVERGED, STOPPED, Schedule, Settings
 from tests import meshes
-from tests.connectivity import validate_connectivity
+from tests.connectivity import can_flip, validate_connectivity
 from tests.search.ways import (
     FREE,
     MESHES,

@@ -10,12 +10,12 @@ from meshlab_willmore import guards
 from meshlab_willmore.energy import virtual, willmore
 from meshlab_willmore.guards.bvh import build_bvh
 from meshlab_willmore.mesh.build import build, faces_of
-from meshlab_willmore.mesh.halfedge import apex, can_flip, flip
+from meshlab_willmore.mesh.halfedge import apex, flip
 from meshlab_willmore.search import greedy
 from meshlab_willmore.search.compiled import KERNELS
 from meshlab_willmore.search.rules import CONVERGED, STOPPED, Rules
 from tests import meshes
-from tests.connectivity import validate_connectivity
+from tests.connectivity import can_flip, validate_connectivity
 from tests.guards import brute
 from tests.search.ways import shuffled
 

@@ -9,13 +9,13 @@ from meshlab_willmore.energy.table import ENERGIES
 from meshlab_willmore.guards.bvh import build_bvh
 from meshlab_willmore.measure import willmore_energy_of
 from meshlab_willmore.mesh.build import build, faces_of
-from meshlab_willmore.mesh.halfedge import NONE, can_flip, flip, is_free
+from meshlab_willmore.mesh.halfedge import NONE, flip, is_free
 from meshlab_willmore.search import regions, variable_depth
 from meshlab_willmore.search.compiled import KERNELS
 from meshlab_willmore.search.multistart import copy_of
 from meshlab_willmore.search.rules import CONVERGED, ChainLimits, Progress, Settings
 from tests import meshes
-from tests.connectivity import validate_connectivity
+from tests.connectivity import can_flip, validate_connectivity
 from tests.search.ways import locked_edges, rules_for
 
 MESHES = {

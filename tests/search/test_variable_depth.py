@@ -9,7 +9,7 @@ from meshlab_willmore import guards
 from meshlab_willmore.energy import area, delaunay, virtual, willmore
 from meshlab_willmore.guards.bvh import build_bvh, inactive_bvh, refitted
 from meshlab_willmore.mesh.build import build, faces_of
-from meshlab_willmore.mesh.halfedge import NONE, apex, can_flip, flip, following, previous
+from meshlab_willmore.mesh.halfedge import NONE, apex, flip, following, previous
 from meshlab_willmore.mesh.jit import jit
 from meshlab_willmore.search import chains, containers, greedy, multistart, variable_depth
 from meshlab_willmore.search.compiled import KERNELS
@@ -23,7 +23,7 @@ from meshlab_willmore.search.rules import (
     Settings,
 )
 from tests import meshes, reference
-from tests.connectivity import validate_connectivity
+from tests.connectivity import can_flip, validate_connectivity
 from tests.guards import brute
 from tests.search import ways
 from tests.search.ways import FREE, GUARDED, shuffled

@@ -6,9 +6,10 @@ from meshlab_willmore import guards
 from meshlab_willmore.energy import willmore
 from meshlab_willmore.energy.table import ENERGIES
 from meshlab_willmore.mesh.build import build, faces_of
-from meshlab_willmore.mesh.halfedge import NONE, can_flip, flip, following
+from meshlab_willmore.mesh.halfedge import NONE, flip, following
 from meshlab_willmore.search.rules import Rules
 from tests import meshes
+from tests.connectivity import can_flip
 
 GUARDED, FREE = guards.fold_limits(90.0), guards.fold_limits(180.0)
 

@@ -1,4 +1,4 @@
-"""The variable-depth search against one that copies the mesh for each flip it tries."""
+"""The variable-depth search against plain recursion."""
 
 import math
 
@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from meshlab_willmore import guards
-from meshlab_willmore.energy import area, delaunay, virtual, willmore
+from meshlab_willmore.energy import area, virtual, willmore
 from meshlab_willmore.guards.bvh import build_bvh, inactive_bvh, refitted
 from meshlab_willmore.mesh.build import build, faces_of
-from meshlab_willmore.mesh.halfedge import NONE, apex, flip, following, previous
+from meshlab_willmore.mesh.halfedge import NONE, flip
 from meshlab_willmore.mesh.jit import jit
 from meshlab_willmore.search import chains, containers, greedy, multistart, variable_depth
 from meshlab_willmore.search.compiled import KERNELS
@@ -26,10 +26,9 @@ from tests import meshes, reference
 from tests.connectivity import can_flip, validate_connectivity
 from tests.guards import brute
 from tests.search import ways
-from tests.search.ways import FREE, GUARDED, shuffled
+from tests.search.chain_scan import MANY, Scan
+from tests.search.ways import FREE, GUARDED, ends, shuffled
 
-# More rounds than any of these runs needs.
-MANY = 100
 # What ranks the edges; the Willmore energy judges.
 ENERGIES = {"virtual willmore": virtual.cost_reduction, "willmore": willmore.cost_reduction}
 LIMITS = [ChainLimits(1, 1), ChainLimits(2, 1), ChainLimits(3, 2), ChainLimits(4, 3)]
@@ -37,124 +36,6 @@ LIMITS = [ChainLimits(1, 1), ChainLimits(2, 1), ChainLimits(3, 2), ChainLimits(4
 
 MESHES = {name: mesh for name, mesh in ways.MESHES.items() if len(mesh().origin) > 6}
 MESHES["shuffled"] = lambda: shuffled(20, 1)
-
-
-def ends(mesh, h):
-    return frozenset((int(mesh.origin[h]), int(mesh.origin[following(h)])))
-
-
-def around(mesh, h):
-    """The ring in the order of the module's picture."""
-    t = int(mesh.twin[h])
-    ring = []
-    for side in (following(h), previous(h), following(t), previous(t)):
-        ring.append(int(side))
-        outside = int(mesh.twin[side])
-        if outside != NONE:
-            ring += [following(outside), previous(outside)]
-    return ring
-
-
-class Scan:
-    """Chains by recursion, on copies; every edge is tried again until none helps."""
-
-    def __init__(self, rules, limits, rank, judge, is_blocked=lambda mesh, h: False):
-        self.rules, self.limits, self.rank, self.judge = rules, limits, rank, judge
-        self.is_blocked = is_blocked
-
-    def allowed(self, mesh, h):
-        if mesh.twin[h] == NONE or not can_flip(mesh, h):
-            return False
-        if not np.isfinite(self.rank(mesh, h)) or guards.folds(mesh, h, self.rules.fold):
-            return False
-        return not self.is_blocked(mesh, h)
-
-    def explore(self, mesh, candidates, chain, made, width):
-        """Follow the first `width` allowed candidates; True once a chain through one helps."""
-        ranked = sorted(
-            (-np.rint(self.rank(mesh, h) / self.rules.rank_step), place, h)
-            for place, h in enumerate(candidates)
-            if ends(mesh, h) not in made and self.allowed(mesh, h)
-        )
-        last = len(chain) + 1 == self.limits.depth
-        # The last step is free, so that all edges may be tried: in the order of the ring.
-        if last and chain:
-            ranked.sort(key=lambda entry: entry[1])
-            width = len(ranked)
-        for _, _, h in ranked[:width]:
-            longer = [*chain, (h, self.judge(mesh, h), willmore.cost_reduction(mesh, h))]
-            drop = math.fsum(entry[1] for entry in longer)
-            rise = -math.fsum(entry[2] for entry in longer)
-            if drop > self.best[0] + self.rules.tolerance and (
-                not self.rules.monotone or rise <= self.rules.tie
-            ):
-                self.best = drop, [entry[0] for entry in longer]
-            if last:
-                continue
-            flipped = multistart.copy_of(mesh)
-            flip(flipped, h)
-            following_width = -(-width // 2) if chain else self.limits.breadth
-            joined = {*made, ends(flipped, h)}
-            self.explore(flipped, around(flipped, h), longer, joined, following_width)
-            if self.best[1]:
-                break
-
-    def chain_from(self, mesh, start):
-        self.best = 0.0, []
-        self.explore(mesh, [start], [], set(), 1)
-        return self.best
-
-    def run(self, mesh, rounds, is_start=lambda h: True):
-        """Make all flips; return their number for each chain."""
-        made = []
-        for _ in range(rounds):
-            waiting = [h for h in range(len(mesh.origin)) if h < mesh.twin[h] and is_start(h)]
-            before = len(made)
-            while waiting:
-                h = waiting.pop(0)
-                if mesh.twin[h] < h:
-                    continue
-                drop, flips = self.chain_from(mesh, h)
-                if not flips:
-                    continue
-                made.append(len(flips))
-                energy = willmore.total(mesh)
-                for h in flips:
-                    flip(mesh, h)
-                    for x in (h, *around(mesh, h)):
-                        low = min(x, int(mesh.twin[x]))
-                        if low != NONE and low not in waiting:
-                            waiting.append(low)
-                validate_connectivity(mesh)
-                assert willmore.total(mesh) == pytest.approx(energy - drop, abs=1e-9)
-            if len(made) == before:
-                break
-        return made
-
-    def doubts(self, mesh):
-        """Go one flip deeper where the harmonic index would flip edges, until it helps no more."""
-        deeper = Scan(
-            self.rules,
-            self.limits._replace(depth=self.limits.depth + 1),
-            self.rank,
-            self.judge,
-            self.is_blocked,
-        )
-        made = []
-        while self.limits.depth > 1:
-            doubtful = set()
-            for h in range(len(mesh.origin)):
-                t = int(mesh.twin[h])
-                if h > t or not can_flip(mesh, h) or guards.folds(mesh, h, self.rules.fold):
-                    continue
-                if delaunay.cost_reduction(mesh, h) > 1e-7:
-                    doubtful |= ends(mesh, h) | {int(apex(mesh, h)), int(apex(mesh, t))}
-            starts = [h for h in range(len(mesh.origin)) if ends(mesh, h) & doubtful]
-            found = deeper.run(mesh, 1, starts.__contains__)
-            if not found:
-                return made
-            made += found + self.run(mesh, MANY)
-        return made
 
 
 def search(energy, mesh, rules, limits):

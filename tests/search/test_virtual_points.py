@@ -13,8 +13,8 @@ from meshlab_willmore.search.compiled import AT, PLACED_KERNELS
 from meshlab_willmore.search.rules import CONVERGED, ChainLimits, Rules, Settings
 from tests import meshes
 from tests.connectivity import validate_connectivity
+from tests.search.chain_scan import Scan
 from tests.search.test_greedy import FREE, GUARDED, MANY, MESHES, flips_by_scanning
-from tests.search.test_variable_depth import Scan
 
 T = 0.2
 

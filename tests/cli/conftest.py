@@ -2,6 +2,7 @@
 
 import io
 import os
+import re
 import subprocess
 import sys
 from contextlib import contextmanager
@@ -16,6 +17,7 @@ from click.testing import CliRunner
 from meshlab_willmore.cli import main
 from tests import meshes
 
+_PROGRESS = re.compile(r"^.*, \d+ s so far\n", re.MULTILINE)
 SAMPLES = Path(pymeshlab.__file__).parent / "tests" / "sample_meshes"
 
 
@@ -36,14 +38,15 @@ def call(*arguments, **given):
 
 
 def spawn(*arguments, **given):
-    """Run a command in a process of its own."""
-    return subprocess.run(
-        [sys.executable, "-m", "meshlab_willmore", *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        check=False,
-        **given,
-    )
+    """Run a command in a process of its own; see `finished`."""
+    return finished([sys.executable, "-m", "meshlab_willmore", *map(str, arguments)], **given)
+
+
+def finished(program, **given):
+    """Run a program to its end; leave out the lines of progress that a slow machine gets."""
+    done = subprocess.run(program, capture_output=True, text=True, check=False, **given)
+    done.stderr = _PROGRESS.sub("", done.stderr)
+    return done
 
 
 # A PNG of one pixel.

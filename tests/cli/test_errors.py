@@ -15,7 +15,7 @@ from meshlab_willmore.machine import MachineWarning, RoomError, SettingError
 from meshlab_willmore.meshset import flips
 from meshlab_willmore.meshset.play import play as play_steps
 
-from .conftest import FLIP, call, cube_file, listing, same_mesh, script_file
+from .conftest import FLIP, call, cube_file, finished, listing, same_mesh, script_file
 
 FULL = RoomError("no room for temporary files in /tmp: 0.1 MiB are free; fix it with: a command")
 WRONG = SettingError("the variable NUMBA_OPT is wrong; fix it with: another command")
@@ -285,9 +285,7 @@ def test_run_with_closed_streams(script, cube, closed):
     # The log would get the free descriptor.
     arguments = f"run {script} -i {cube} -o out.ply --log log.txt"
     command = f"{shlex.quote(sys.executable)} -m meshlab_willmore {arguments} {closed}"
-    done = subprocess.run(
-        ["/bin/sh", "-c", command], capture_output=True, text=True, check=False, timeout=100
-    )
+    done = finished(["/bin/sh", "-c", command], timeout=100)
     assert (done.returncode, done.stderr) == (0, "")
     assert call("run", script, "-i", cube, "-o", "expected.ply").exit_code == 0
     assert same_mesh("out.ply", "expected.ply")
@@ -300,9 +298,7 @@ def test_run_with_closed_streams(script, cube, closed):
 @pytest.mark.slow
 def test_log_on_a_closed_output(script, cube):
     command = f"{shlex.quote(sys.executable)} -m meshlab_willmore run {script} -i {cube} -l - >&-"
-    done = subprocess.run(
-        ["/bin/sh", "-c", command], capture_output=True, text=True, check=False, timeout=100
-    )
+    done = finished(["/bin/sh", "-c", command], timeout=100)
     assert (done.returncode, done.stderr) == (0, "")
 
 

@@ -84,6 +84,7 @@ def test_without_the_guard_a_noisy_sphere_cuts_itself():
 @pytest.mark.parametrize(
     "mesh", [meshes.torus(300, 0.3, 8), meshes.patch(200, height=0.02), meshes.grid(8, 8)]
 )
+@pytest.mark.slow
 def test_where_nothing_would_cut_the_guard_changes_nothing(mesh, search):
     options = {"search": search, "energy": "willmore", "depth": 3}
     free = optimize_flips(*mesh, **options)

@@ -13,6 +13,7 @@ from meshlab_willmore.optimize import optimize_flips
 from meshlab_willmore.options import ENERGY, SEARCH
 from meshlab_willmore.search import regions
 from tests import meshes, reference
+from tests.combinations import products
 from tests.connectivity import can_flip
 
 BUNNY = Path(pymeshlab.__file__).parent / "tests" / "sample_meshes" / "bunny10k_textured.obj"
@@ -108,9 +109,9 @@ def assert_kept(faces, wedges, result):
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize("name", MAPPED)
-@pytest.mark.parametrize("energy", ENERGY.choices)
-@pytest.mark.parametrize("search", SEARCH.choices)
+@pytest.mark.parametrize(
+    ("search", "energy", "name"), products(SEARCH.choices, ENERGY.choices, MAPPED)
+)
 def test_no_texture_triangle_is_turned_over_or_made_flat(search, energy, name):
     vertices, faces, wedges = MAPPED[name]
     options = {"search": search, "energy": energy, **QUICK}

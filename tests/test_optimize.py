@@ -24,7 +24,7 @@ from tests.search.ways import scramble
 
 HEAVY = pytest.mark.heavy
 POTENTIALS = [name for name, row in table.ENERGIES.items() if row.is_potential]
-HEAVY_DEPTH = pytest.param("variable depth", marks=HEAVY)
+HEAVY_DEPTH = pytest.param("variable depth", marks=[HEAVY, pytest.mark.slow])
 BUMPY = meshes.bumpy_sphere(60)
 PATCH = meshes.patch(60)
 

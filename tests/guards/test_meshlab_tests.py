@@ -35,6 +35,7 @@ def counted(vertices, corners):
 
 @pytest.mark.parametrize("sharing", PATTERNS)
 @pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.slow
 def test_what_meshlab_counts_is_counted(family, sharing):
     rng = np.random.default_rng(1)
     corners = np.array(PATTERNS[sharing], np.int32)

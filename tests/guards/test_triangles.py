@@ -61,6 +61,7 @@ def both_ways(vertices, one, other):
 
 @pytest.mark.parametrize("sharing", PATTERNS)
 @pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.slow
 def test_intersections_are_those_of_clipping(family, sharing):
     rng = np.random.default_rng(0)
     one, other = PATTERNS[sharing]

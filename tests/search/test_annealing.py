@@ -109,6 +109,7 @@ def test_the_best_state_lies_on_the_way_not_at_its_end():
 @pytest.mark.heavy
 @pytest.mark.parametrize("name", MESHES)
 @pytest.mark.parametrize("energy", KERNELS)
+@pytest.mark.slow
 def test_never_worse_than_greedy_and_its_gain_is_the_drop(energy, name):
     kernels, rules = KERNELS[energy], rules_for(energy)
     start, greedily, mesh = MESHES[name](), MESHES[name](), MESHES[name]()
@@ -129,6 +130,7 @@ def test_never_worse_than_greedy_and_its_gain_is_the_drop(energy, name):
 
 @pytest.mark.heavy
 @pytest.mark.parametrize("monotone", [True, False])
+@pytest.mark.slow
 def test_the_virtual_energy_leads_and_the_true_one_judges(monotone):
     rules = rules_for("virtual willmore")._replace(monotone=monotone)
     mesh = build(*meshes.torus(200, None, 1))

@@ -168,6 +168,7 @@ def test_the_cycle_on_a_random_torus_ends(monotone):
     assert progress.state == CONVERGED
 
 
+@pytest.mark.heavy
 def test_ties_do_not_go_round_in_circles():
     """A tie so large that every flip counts as one: what a tie flipped away stays away."""
     mesh = build(*meshes.torus(200, None, 1))
@@ -251,6 +252,7 @@ def test_gains_that_differ_by_rounding_only_go_by_number(ahead, first):
     assert changed.tolist() == [first == 0, first == 1]
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     "place", [greedy.WORK_PER_CALL - 1, greedy.WORK_PER_CALL, greedy.WORK_PER_CALL + 1]
 )

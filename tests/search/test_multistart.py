@@ -44,6 +44,7 @@ def by_hand(energy, mesh, settings):
 @pytest.mark.heavy
 @pytest.mark.parametrize("name", MESHES)
 @pytest.mark.parametrize("energy", KERNELS)
+@pytest.mark.slow
 def test_it_is_the_best_of_its_starts(energy, name):
     kernels, rules = KERNELS[energy], rules_for(energy)
     start, mesh = MESHES[name](), MESHES[name]()
@@ -76,6 +77,7 @@ def test_another_start_wins_where_the_mesh_itself_is_stuck():
     assert willmore.total(mesh) < willmore.total(alone) - 1.0
 
 
+@pytest.mark.heavy
 def test_without_other_starts_it_is_variable_depth():
     kernels, rules = KERNELS["willmore"], rules_for("willmore")
     one, other = MESHES["closed"](), MESHES["closed"]()
@@ -121,6 +123,7 @@ def test_an_interrupt_leaves_the_mesh_as_it_was():
     assert_equal(mesh, MESHES["closed"]())
 
 
+@pytest.mark.heavy
 def test_the_best_of_all_triangulations_is_found():
     arrays = meshes.bumpy_sphere(6, 1, 0.6)
     mesh = build(*arrays)

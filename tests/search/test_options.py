@@ -24,6 +24,7 @@ def test_wrong_options_are_refused(options, error, message):
         optimize_flips(*MESH, search="annealing", **options)
 
 
+@pytest.mark.heavy
 def test_seed_and_sweeps_reach_the_annealing():
     def anneal(seed, sweeps):
         return optimize_flips(

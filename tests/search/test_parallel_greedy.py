@@ -242,6 +242,7 @@ def test_edges_of_equal_gain_do_not_wait_for_the_first_of_all():
         assert chosen & around == {h}
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("energy", ENERGIES)
 @pytest.mark.parametrize("name", ["closed", "locked", "shuffled"])
 def test_the_number_of_threads_changes_nothing(energy, name, monkeypatch):
@@ -281,6 +282,7 @@ def test_nothing_is_left_to_gain_and_the_gain_is_the_drop(energy, name):
 @HEAVY
 @pytest.mark.parametrize("energy", KERNELS)
 @pytest.mark.parametrize("model", [(2000, 0.3, 8), (2000, None, 1)])
+@pytest.mark.slow
 def test_rounds_end_as_low_as_the_queue(energy, model):
     vertices, faces = meshes.torus(*model)
     total = KERNELS[energy].total

@@ -23,6 +23,7 @@ from meshlab_willmore.search.rules import (
     Settings,
 )
 from tests import meshes, reference
+from tests.combinations import products
 from tests.connectivity import can_flip, validate_connectivity
 from tests.guards import brute
 from tests.search import ways
@@ -54,10 +55,9 @@ def find_virtual(state, h):
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize("name", MESHES)
-@pytest.mark.parametrize("fold", [GUARDED, FREE])
-@pytest.mark.parametrize("limits", LIMITS)
-@pytest.mark.parametrize("energy", ENERGIES)
+@pytest.mark.parametrize(
+    ("energy", "limits", "fold", "name"), products(ENERGIES, LIMITS, [GUARDED, FREE], MESHES)
+)
 @pytest.mark.slow
 def test_the_search_finds_what_a_scan_finds(energy, limits, fold, name):
     """Also that to try again the edges near a change is as good as to try all again."""
@@ -85,8 +85,15 @@ CROWDED = {
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize("name", CROWDED)
-@pytest.mark.parametrize("limits", [ChainLimits(2, 1), ChainLimits(3, 2)])
+@pytest.mark.parametrize(
+    ("limits", "name"),
+    [
+        *((ChainLimits(2, 1), name) for name in CROWDED),
+        (ChainLimits(3, 2), "crumpled sheet"),
+        pytest.param(ChainLimits(3, 2), "two sheets", marks=pytest.mark.nightly),
+        pytest.param(ChainLimits(3, 2), "noisy sphere", marks=pytest.mark.nightly),
+    ],
+)
 @pytest.mark.slow
 def test_chains_blocked_by_cuts_are_tried_again_once_a_scan_would(limits, name):
     rank = judge = willmore.cost_reduction
@@ -157,6 +164,7 @@ def test_what_a_chain_tries_leaves_no_trace(limits, name):
     assert worked > 3 * len(mesh.origin)
 
 
+@pytest.mark.heavy
 def test_the_chains_from_one_edge_are_bounded():
     """However deep and broad they may be, and on a mesh so small that they go round and round."""
     mesh = build(*meshes.bumpy_sphere(20, seed=2))
@@ -290,6 +298,7 @@ def test_locked_edges_stay_and_the_rest_improves(energy):
     assert locked == {ends(mesh, h) for h in np.flatnonzero(mesh.locked)}
 
 
+@pytest.mark.heavy
 def test_every_flip_of_a_chain_passes_the_fold_guard():
     """The kept flips, made again one by one on the input."""
     mesh, rules, limits = MESHES["closed"](), Rules(GUARDED), ChainLimits(5, 3)

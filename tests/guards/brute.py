@@ -8,15 +8,7 @@ from meshlab_willmore.guards.intersections import (
 )
 from meshlab_willmore.mesh.build import faces_of
 from meshlab_willmore.mesh.halfedge import flip
-
-
-def copy_of(mesh):
-    return mesh._replace(
-        origin=mesh.origin.copy(),
-        twin=mesh.twin.copy(),
-        locked=mesh.locked.copy(),
-        corner=mesh.corner.copy(),
-    )
+from meshlab_willmore.search.multistart import copy_of
 
 
 def are_refused(vertices, corners, f, g, area_scale):

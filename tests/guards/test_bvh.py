@@ -28,6 +28,7 @@ from meshlab_willmore.mesh.build import build, faces_of
 from meshlab_willmore.mesh.halfedge import NONE, flip
 from meshlab_willmore.mesh.jit import jit
 from meshlab_willmore.mesh.validate import to_unit_scale
+from meshlab_willmore.search.multistart import copy_of
 from tests import meshes, solids
 from tests.connectivity import can_flip
 from tests.guards import brute
@@ -71,6 +72,11 @@ def unit_mesh(vertices, faces):
     return build(scaled, faces), exponent
 
 
+def mesh_and_bvh(name):
+    mesh, exponent = unit_mesh(*MESHES[name]())
+    return mesh, build_bvh(mesh, exponent)
+
+
 def shuffle(mesh, bvh, count, rng, number=0):
     """Make random flips, and let the index follow, or grow in a round."""
     for h in rng.integers(0, len(mesh.origin), count):
@@ -86,12 +92,11 @@ def shuffle(mesh, bvh, count, rng, number=0):
 @pytest.mark.parametrize("name", MESHES)
 @pytest.mark.slow
 def test_the_bvh_finds_what_all_pairs_find(name):
-    mesh, exponent = unit_mesh(*MESHES[name]())
-    bvh = build_bvh(mesh, exponent)
+    mesh, bvh = mesh_and_bvh(name)
     rng = np.random.default_rng(0)
     for flips in (0, 30, 200):
         shuffle(mesh, bvh, flips, rng)
-        before = brute.copy_of(mesh)
+        before = copy_of(mesh)
         for h in np.flatnonzero(mesh.twin != NONE)[::3]:
             if not can_flip(mesh, h):
                 continue
@@ -171,8 +176,7 @@ def test_expanded_boxes_hold_what_is_below_and_what_was(name):
 @pytest.mark.heavy
 @pytest.mark.parametrize("name", MESHES)
 def test_among_faces_that_changed_in_a_round_the_bvh_finds_what_all_pairs_find(name):
-    mesh, exponent = unit_mesh(*MESHES[name]())
-    bvh = build_bvh(mesh, exponent)
+    mesh, bvh = mesh_and_bvh(name)
     rng = np.random.default_rng(3)
     for number in (1, 2):
         shuffle(mesh, bvh, 30, rng, number)
@@ -191,15 +195,14 @@ def test_among_faces_that_changed_in_a_round_the_bvh_finds_what_all_pairs_find(n
 @pytest.mark.slow
 def test_flips_of_a_round_that_intersect_are_those_that_all_pairs_find(name):
     """Flips of a round: none has a face of another one's, but their new faces may cut."""
-    mesh, exponent = unit_mesh(*MESHES[name]())
-    bvh = build_bvh(mesh, exponent)
+    mesh, bvh = mesh_and_bvh(name)
     to_flip = np.full(len(bvh.order), -1, np.int32)
     for h in np.random.default_rng(4).permutation(len(mesh.origin)).tolist():
         own = [h // 3, int(mesh.twin[h]) // 3]
         if mesh.twin[h] != NONE and can_flip(mesh, h) and (to_flip[own] == -1).all():
             to_flip[own] = h
             expand(mesh, bvh, h, 7)
-    flipped = brute.copy_of(mesh)
+    flipped = copy_of(mesh)
     chosen = sorted(set(to_flip[to_flip >= 0].tolist()))
     for h in chosen:
         flip(flipped, h)

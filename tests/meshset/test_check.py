@@ -112,20 +112,17 @@ CORPUS = [
         step(FLIP_NAME, param("maxFlips", "RichInt", value=1)),
     ),
     # types
-    broken(
-        f"step 1 ({REMESH}), parameter 'FeatureDeg': is given as RichInt, but is a RichFloat: "
-        "PyMeshLab would read zero; write type='RichFloat'",
-        step(REMESH, param("FeatureDeg", "RichInt", value=30)),
-    ),
-    broken(
-        f"step 1 ({REMESH}), parameter 'Iterations': is given as RichFloat, but is a RichInt: "
-        "PyMeshLab would read zero; write type='RichInt'",
-        step(REMESH, param("Iterations", "RichFloat", value=3)),
-    ),
-    broken(
-        f"step 1 ({REMESH}), parameter 'Adaptive': is given as RichInt, but is a RichBool: "
-        "PyMeshLab would read false; write type='RichBool'",
-        step(REMESH, param("Adaptive", "RichInt", value=1)),
+    *(
+        broken(
+            f"step 1 ({REMESH}), parameter '{name}': is given as {given}, but is a {own}: "
+            f"PyMeshLab would read {read}; write type='{own}'",
+            step(REMESH, param(name, given, value=value)),
+        )
+        for name, given, value, own, read in (
+            ("FeatureDeg", "RichInt", 30, "RichFloat", "zero"),
+            ("Iterations", "RichFloat", 3, "RichInt", "zero"),
+            ("Adaptive", "RichInt", 1, "RichBool", "false"),
+        )
     ),
     broken(
         f"step 1 ({FLIP_NAME}), parameter 'foldangle': is given as RichString, but is a "

@@ -18,6 +18,7 @@ from tests.search.ways import (
     FREE,
     MESHES,
     assert_equal,
+    each_energy_and_mesh,
     ends,
     least_energy,
     locked_edges,
@@ -107,8 +108,7 @@ def test_the_best_state_lies_on_the_way_not_at_its_end():
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize("name", MESHES)
-@pytest.mark.parametrize("energy", KERNELS)
+@each_energy_and_mesh
 @pytest.mark.slow
 def test_never_worse_than_greedy_and_its_gain_is_the_drop(energy, name):
     kernels, rules = KERNELS[energy], rules_for(energy)

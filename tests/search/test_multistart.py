@@ -14,6 +14,7 @@ from tests.search.ways import (
     FREE,
     MESHES,
     assert_equal,
+    each_energy_and_mesh,
     least_energy,
     locked_edges,
     rules_for,
@@ -42,8 +43,7 @@ def by_hand(energy, mesh, settings):
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize("name", MESHES)
-@pytest.mark.parametrize("energy", KERNELS)
+@each_energy_and_mesh
 @pytest.mark.slow
 def test_it_is_the_best_of_its_starts(energy, name):
     kernels, rules = KERNELS[energy], rules_for(energy)

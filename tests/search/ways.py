@@ -1,6 +1,9 @@
 """What the tests of the searches share: meshes, rules, and all triangulations of a few points."""
 
+import itertools
+
 import numpy as np
+import pytest
 
 from meshlab_willmore import guards
 from meshlab_willmore.energy import willmore
@@ -42,6 +45,11 @@ MESHES = {
     "empty": lambda: build(np.zeros((0, 3)), np.zeros((0, 3), np.int32)),
     "two triangles": lambda: build(*meshes.two_triangles()),
 }
+
+
+each_energy_and_mesh = pytest.mark.parametrize(
+    ("energy", "name"), list(itertools.product(ENERGIES, MESHES))
+)
 
 
 def rules_for(energy, fold=GUARDED):

@@ -129,9 +129,8 @@ def test_a_device_is_written_into():
 
 @POSIX
 def test_a_file_behind_links_is_replaced_and_keeps_its_mode(tmp_path):
-    folder = tmp_path / "elsewhere"
-    folder.mkdir()
-    real = folder / "real"
+    real = tmp_path / "elsewhere/real"
+    real.parent.mkdir()
     real.write_text("old")
     real.chmod(0o640)
     (tmp_path / "second.mlx").symlink_to("elsewhere/real")
@@ -144,7 +143,7 @@ def test_a_file_behind_links_is_replaced_and_keeps_its_mode(tmp_path):
     assert real.read_text() == "new"
     assert stat.S_IMODE(real.stat().st_mode) == 0o640
     assert sorted(os.listdir(tmp_path)) == ["elsewhere", "first.mlx", "second.mlx"]
-    assert os.listdir(folder) == ["real"]
+    assert os.listdir(real.parent) == ["real"]
 
 
 @POSIX

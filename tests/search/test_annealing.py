@@ -20,6 +20,7 @@ from tests.search.ways import (
     assert_equal,
     each_energy_and_mesh,
     ends,
+    interrupted,
     least_energy,
     locked_edges,
     rules_for,
@@ -183,21 +184,11 @@ def test_the_size_of_a_call_changes_nothing(size, monkeypatch):
 
 
 def test_an_interrupt_leaves_the_mesh_as_it_was():
-    def interrupted(state, progress, draws, temperature):
-        calls.append(progress)
-        if len(calls) == 4:
-            raise KeyboardInterrupt
-        return WILLMORE.anneal(state, progress, draws, temperature)
-
-    calls, mesh = [], MESHES["closed"]()
+    anneal, calls = interrupted(WILLMORE.anneal, 4)
+    kernels, rules = WILLMORE._replace(anneal=anneal), rules_for("willmore")
+    mesh = MESHES["closed"]()
     with pytest.raises(KeyboardInterrupt):
-        annealing.run(
-            WILLMORE._replace(anneal=interrupted),
-            mesh,
-            rules_for("willmore"),
-            None,
-            Settings(schedule=SHORT),
-        )
+        annealing.run(kernels, mesh, rules, None, Settings(schedule=SHORT))
     assert calls[-1].flips > 0
     assert_equal(mesh, MESHES["closed"]())
 

@@ -15,6 +15,7 @@ from tests.search.ways import (
     MESHES,
     assert_equal,
     each_energy_and_mesh,
+    interrupted,
     least_energy,
     locked_edges,
     rules_for,
@@ -105,21 +106,11 @@ def test_maxflips_counts_the_flips_on_the_way(limit):
 
 
 def test_an_interrupt_leaves_the_mesh_as_it_was():
-    def interrupted(task, progress):
-        calls.append(progress)
-        if len(calls) == 3:
-            raise KeyboardInterrupt
-        return kernels.depth(task, progress)
-
-    kernels, calls, mesh = KERNELS["willmore"], [], MESHES["closed"]()
+    depth, _ = interrupted(KERNELS["willmore"].depth, 3)
+    kernels, rules = KERNELS["willmore"]._replace(depth=depth), rules_for("willmore")
+    mesh, settings = MESHES["closed"](), with_starts(Settings(ChainLimits(3, 2)))
     with pytest.raises(KeyboardInterrupt):
-        multistart.run(
-            kernels._replace(depth=interrupted),
-            mesh,
-            rules_for("willmore"),
-            None,
-            with_starts(Settings(ChainLimits(3, 2))),
-        )
+        multistart.run(kernels, mesh, rules, None, settings)
     assert_equal(mesh, MESHES["closed"]())
 
 

@@ -62,6 +62,19 @@ def ends(mesh, h):
     return frozenset((int(mesh.origin[h]), int(mesh.origin[following(h)])))
 
 
+def interrupted(kernel, number):
+    """A kernel that is interrupted in its call of that number, and what its calls began with."""
+    calls = []
+
+    def interrupting(state, progress, *more):
+        calls.append(progress)
+        if len(calls) == number:
+            raise KeyboardInterrupt
+        return kernel(state, progress, *more)
+
+    return interrupting, calls
+
+
 def locked_edges(mesh):
     return {ends(mesh, h) for h in np.flatnonzero(mesh.locked)}
 

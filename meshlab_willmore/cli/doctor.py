@@ -140,12 +140,12 @@ def filters() -> Finding:
     if not answer.values.get("registered"):
         cure = f"fix PyMeshLab first; if it is ok: {REINSTALL}"
         return _failure("filters", answer, "the Willmore filters are missing", cure)
-    gone = answer.values["missing"]
-    if not gone:
+    missing = answer.values["missing"]
+    if not missing:
         return Finding("filters", True, "the Willmore filters and all native ones are there")
-    more = len(gone) - _NAMED
-    names = ", ".join(gone[:_NAMED]) + (f" and {more} more" if more > 0 else "")
-    text = f"{len(gone)} of PyMeshLab's filters are missing: {names}"
+    more = len(missing) - _NAMED
+    names = ", ".join(missing[:_NAMED]) + (f" and {more} more" if more > 0 else "")
+    text = f"{len(missing)} of PyMeshLab's filters are missing: {names}"
     here, known = answer.values["version"], answer.values["recorded"]
     if here != known:
         text += f" (this is PyMeshLab {here}; the list is that of {known})"

@@ -28,7 +28,8 @@ PACKAGE = "meshlab_willmore"
 NEEDED = (PACKAGE, "tests", "studies", "filter_scripts", "docs")
 FILES = ("README.md", "CHANGELOG.md", "pyproject.toml")
 PASSED, FAILED = 0, 1
-# A fault may well be that something does not end.
+# A fault may well be that something does not end: seconds for a test, and for all of a fault.
+OPTIONS = ("-x", "-q", "-n0", "--timeout=120", "-p", "no:cacheprovider")
 MOST_SECONDS = 900
 
 
@@ -57,7 +58,7 @@ def run(tests, jit_is_off, fault=None):
             path.write_text(path.read_text().replace(fault.old, fault.new))
         environment = {**os.environ, "PYTHONPATH": folder, "PYTHONDONTWRITEBYTECODE": "1"}
         environment["NUMBA_DISABLE_JIT"] = str(int(jit_is_off))
-        program = [sys.executable, "-m", "pytest", "-x", "-q", "-n0", "-p", "no:cacheprovider"]
+        program = [sys.executable, "-m", "pytest", *OPTIONS]
         try:
             done = subprocess.run(
                 [*program, *tests],

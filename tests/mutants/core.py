@@ -14,8 +14,8 @@ CONNECTIVITY = [
     Fault(
         "a new edge may exist already",
         "mesh/halfedge.py",
-        "return is_free(mesh, h) and makes_new_edge(mesh, h)",
-        "return is_free(mesh, h)",
+        " and not are_joined(mesh, previous(h), previous(t))",
+        "",
         MESH,
     ),
     Fault(

@@ -165,6 +165,7 @@ def test_what_a_chain_tries_leaves_no_trace(limits, name):
 
 
 @pytest.mark.heavy
+@pytest.mark.slow
 def test_the_chains_from_one_edge_are_bounded():
     """However deep and broad they may be, and on a mesh so small that they go round and round."""
     mesh = build(*meshes.bumpy_sphere(20, seed=2))
@@ -299,6 +300,7 @@ def test_locked_edges_stay_and_the_rest_improves(energy):
 
 
 @pytest.mark.heavy
+@pytest.mark.slow
 def test_every_flip_of_a_chain_passes_the_fold_guard():
     """The kept flips, made again one by one on the input."""
     mesh, rules, limits = MESHES["closed"](), Rules(GUARDED), ChainLimits(5, 3)

@@ -169,7 +169,7 @@ def scrambled(h):
     return (at(h) * SCRAMBLER) & LOW_BITS
 
 
-@inner
+@inlined
 def goes_before(state, other, h):
     """Whether the edge of the half-edge `other` goes before `h`, the lower of its twins."""
     rank, other_rank = state.rank[at(h)], state.rank[at(other)]

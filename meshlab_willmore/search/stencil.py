@@ -8,7 +8,7 @@ whether to stop there, which only `visit_ring` and `visit_stencil` do.
 import numpy as np
 
 from ..mesh.halfedge import NONE, apex, following, next_in_fan, previous
-from ..mesh.jit import at, generic
+from ..mesh.jit import at, generic, inlined
 
 # Most edges of a ring.
 RING = 12
@@ -16,7 +16,7 @@ RING = 12
 FAN_EDGES = 72
 
 
-@generic
+@inlined
 def visit_ring(task, h, visit, argument):
     """Visit the sides of the diamond of `h`, and the other sides of the faces outside.
 

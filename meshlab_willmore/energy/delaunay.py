@@ -22,7 +22,7 @@ from ..mesh.halfedge import diamond
 from ..mesh.jit import inner, jit
 from ..mesh.points import norm
 from ..mesh.rounding import good_normal
-from .triangles import ROUNDING, corners, has_coincident_corners
+from .triangles import corners, drop_of, has_coincident_corners
 
 # A face without area counts as one of this sum: an infinite one would forbid the flip that removes
 # it. Flatter than this, and still not quite flat, are hardly any.
@@ -57,10 +57,7 @@ def cost_reduction(mesh, h):
             return -math.inf
         before += had
         after += has
-    gain = before - after
-    if abs(gain) <= ROUNDING * (before + after):
-        return 0.0
-    return gain if math.isfinite(gain) else -math.inf
+    return drop_of(before, after)
 
 
 @jit

@@ -15,7 +15,7 @@ from ..mesh.halfedge import NONE, apex, diamond, following, previous
 from ..mesh.jit import inner, jit
 from ..mesh.points import angle_between, norm, point, subtract
 from ..mesh.rounding import good_direction
-from .triangles import ROUNDING, has_coincident_corners
+from .triangles import drop_of, has_coincident_corners
 
 
 @inner
@@ -59,9 +59,7 @@ def cost_reduction(mesh, h):
     ):
         before += had
         after += has
-    if abs(before - after) <= ROUNDING * (before + after):
-        return 0.0
-    return before - after if math.isfinite(before - after) else -math.inf
+    return drop_of(before, after)
 
 
 @jit

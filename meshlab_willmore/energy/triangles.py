@@ -13,6 +13,15 @@ ROUNDING = 1e-13
 
 
 @inner
+def drop_of(before, after):
+    """Return ``before - after``, two sums over faces: 0 if it is rounding, -inf if not finite."""
+    gain = before - after
+    if abs(gain) <= ROUNDING * (before + after):
+        return 0.0
+    return gain if math.isfinite(gain) else -math.inf
+
+
+@inner
 def corners(mesh, f):
     """Return the three points of the face `f`."""
     return (

@@ -53,10 +53,8 @@ def virtual_angles(quad, wings, spokes):
 
     Parameters
     ----------
-    quad : Diamond
-        The points around the edge.
-    wings : Wings
-        The faces outside.
+    quad, wings : Diamond, Wings
+        The points around the edge, and the faces outside.
     spokes : Diamond
         The vectors to the corners from the virtual vertex, wherever on i-j or on k-l it is.
 

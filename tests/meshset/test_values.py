@@ -12,7 +12,6 @@ from tests.meshset.scripts import (
     FLIP_NAME,
     HAUSDORFF,
     REMESH,
-    energy,
     old_step,
     param,
     percentage,
@@ -82,7 +81,9 @@ def test_cameras_are_left_to_pymeshlab():
 
 
 def test_an_enum_may_be_reworded_but_not_reordered():
-    assert given_of(step(FLIP_NAME, energy(1, "virtual energy", "true energy"))) == [{"energy": 1}]
+    old = {"enum_val0": "virtual energy", "enum_val1": "true energy"}
+    energy = param("energy", "RichEnum", value=1, enum_cardinality=2, **old)
+    assert given_of(step(FLIP_NAME, energy)) == [{"energy": 1}]
 
 
 def test_ids_of_meshes_that_a_step_may_make():

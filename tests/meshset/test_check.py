@@ -8,6 +8,7 @@ from meshlab_willmore.meshset import catalogue, native
 from meshlab_willmore.meshset.check import examine, faults_of, resolve
 from meshlab_willmore.mlx.read import reading_of
 from meshlab_willmore.mlx.steps import Fault, Param, Percentage, Reading, ScriptError, Step
+from meshlab_willmore.options import ENERGY
 from tests.meshset.conftest import FLIP, set_of
 from tests.meshset.scripts import (
     FLIP_NAME,
@@ -23,10 +24,8 @@ from tests.meshset.scripts import (
     steps_of,
 )
 
-ENERGIES = (
-    "0 'virtual willmore', 1 'willmore', 2 'uniform virtual willmore', 3 'area', "
-    "4 'mean curvature', 5 'gaussian curvature', 6 'delaunay'"
-)
+ENERGIES = ", ".join(f"{i} {name!r}" for i, name in enumerate(ENERGY.choices))
+NO_ENERGY = len(ENERGY.choices)
 REMESH_PARAMS = (
     "Iterations, Adaptive, SelectedOnly, TargetLen, FeatureDeg, CheckSurfDist, MaxSurfDist, "
     "SplitFlag, CollapseFlag, SwapFlag, SmoothFlag, ReprojectFlag"
@@ -167,9 +166,9 @@ CORPUS = [
     ),
     # choices
     broken(
-        f"step 1 ({FLIP_NAME}), parameter 'energy': there is no choice 7; the choices are "
-        f"{ENERGIES}",
-        step(FLIP_NAME, energy(7)),
+        f"step 1 ({FLIP_NAME}), parameter 'energy': there is no choice {NO_ENERGY}; "
+        f"the choices are {ENERGIES}",
+        step(FLIP_NAME, energy(NO_ENERGY)),
     ),
     broken(
         "step 1 (Planar flipping optimization), parameter 'planartype': there is no choice 5; the "
@@ -266,7 +265,7 @@ def test_all_faults_are_listed_in_order():
         step("qqqqq", percentage("x", 1)),
         step(REMESH, percentage("zzz", 1), param("FeatureDeg", "RichInt", value=1)),
         step(TAUBIN),
-        step(FLIP_NAME, energy(7)),
+        step(FLIP_NAME, energy(NO_ENERGY)),
         step("NXS Build"),
     )
     faults = faults_of(steps, ())

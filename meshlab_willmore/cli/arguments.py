@@ -196,7 +196,8 @@ def take_outputs(args: Sequence[str], ctx: click.Context) -> tuple[list[Output],
             rest += ["--log", *values]
         elif name in _INPUT:
             values = words.take_values(attached, _is_input)
-            rest += [w for value in values for w in ("-i", value)] or [word]
+            _check_given(name, values, ctx)
+            rest += [w for value in values for w in ("-i", value)]
             is_behind = False
         else:
             rest.append(word)

@@ -67,7 +67,7 @@ def taken(line):
         ("-o a -s s.mlx -om", ["a"], "-s s.mlx"),
         ("-o a -om -s s.mlx", ["a"], "-s s.mlx"),
         ("-o a -om s.mlx", ["a"], "s.mlx"),
-        ("-i -- -om -p", [], "-i -- -om -p"),
+        ("-i a -- -om -p", [], "-i a -- -om -p"),
     ],
 )
 def test_outputs_with_their_masks_and_layers(line, outputs, rest):
@@ -98,6 +98,7 @@ def test_outputs_with_their_masks_and_layers(line, outputs, rest):
         ("-o a --layer", "Option '--layer' requires an argument"),
         ("-o", "Option '-o' requires an argument"),
         ("-o -i a", "Option '-o' requires an argument"),
+        ("-i -o a --force", "Option '-i' requires an argument"),
         ("-o a -m", "Option '-m' requires an argument"),
         # The first word is the option's even if it is wrong.
         ("-m xx vc", "'xx' is not one of 'vc'"),

@@ -34,7 +34,7 @@ Examples:
 TIMEOUT = 60.0
 # These two choose the rows.
 _ROWS = (SEARCH, ENERGY)
-# These are the same for all rows.
+# No options of this command for all rows: those two, and what is the same in every comparison.
 _NOT_SHARED = {option.name for option in (*_ROWS, SELECTION, ALLOWLOSS)}
 
 

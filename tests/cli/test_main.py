@@ -83,7 +83,7 @@ def test_examples_are_valid_commands(name):
         words = shlex.split(line.partition(">")[0])[2:]
         if "--help" not in words:
             command = main.commands[name]
-            command.make_context(name, words, parent=click.Context(main))
+            command.make_context(name, words, parent=click.Context(main, **main.context_settings))
 
 
 def test_every_command_is_in_the_help():

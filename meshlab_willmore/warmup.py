@@ -34,7 +34,7 @@ _FEATURE = 30.0
 _BEND, _SHEAR = 0.002, 0.3
 
 
-class Step(NamedTuple):
+class WarmupStep(NamedTuple):
     """Something to call, and its name."""
 
     name: str
@@ -50,7 +50,7 @@ class Warmed(NamedTuple):
     folder: str
 
 
-def steps() -> list[Step]:
+def steps() -> list[WarmupStep]:
     """All that a filter or a function of this package may compile; the default comes first."""
     patch, slope = _patch(), _slope()
     # One sweep compiles as much as many.
@@ -90,7 +90,7 @@ def steps() -> list[Step]:
         },
         "normals": partial(vertex_normals, *patch, np.zeros((_ROWS**2, 3))),
     }
-    return [Step(name, run) for name, run in (chosen | guarded | others).items()]
+    return [WarmupStep(name, run) for name, run in (chosen | guarded | others).items()]
 
 
 def _grid(rows: int) -> tuple[Any, Any, NDArray[np.int32]]:
@@ -159,7 +159,7 @@ def warm_up(
 _Outcome = tuple[str, list[compiling.Compiled]]
 
 
-def _run(chosen: list[Step]) -> list[_Outcome]:
+def _run(chosen: list[WarmupStep]) -> list[_Outcome]:
     """Run steps in this process; return their names and what each has compiled."""
     outcomes = []
     with compiling.announced("", silent=True):
@@ -194,13 +194,13 @@ def _in_processes(pool: ProcessPoolExecutor) -> Iterator[_Outcome]:
             pool.shutdown(wait=False, cancel_futures=True)
 
 
-def _jobs() -> list[list[Step]]:
+def _jobs() -> list[list[WarmupStep]]:
     """The steps, those together that compile the same kernels.
 
     Next to each other are jobs of other searches and other energies: processes that run them at the
     same time compile little that is the same.
     """
-    jobs: dict[str, list[Step]] = {}
+    jobs: dict[str, list[WarmupStep]] = {}
     for step in steps():
         jobs.setdefault(step.name.removesuffix(_GUARDED), []).append(step)
     found = list(jobs.values())
@@ -216,7 +216,7 @@ def missing() -> list[str]:
     return [step.name for step in steps() if _would_compile(step)]
 
 
-def _would_compile(step: Step) -> bool:
+def _would_compile(step: WarmupStep) -> bool:
     try:
         with compiling.forbidden():
             step.run()

@@ -90,7 +90,7 @@ def test_without_locks_for_processes_one_does(monkeypatch):
     monkeypatch.setattr(warmup, "cache_folder", lambda: "/the/folder")
     monkeypatch.setattr(numba.config, "DISABLE_JIT", 0)
     ran = []
-    monkeypatch.setattr(warmup, "steps", lambda: [warmup.Step("one", lambda: ran.append(1))])
+    monkeypatch.setattr(warmup, "steps", lambda: [warmup.WarmupStep("one", lambda: ran.append(1))])
     assert warmup.warm_up(print, 2).compiled == 0
     assert ran == [1]
 
@@ -119,7 +119,10 @@ def test_what_would_be_compiled_is_named(monkeypatch):
     monkeypatch.setattr(
         warmup,
         "steps",
-        lambda: [warmup.Step("new", lambda: compiled(1)), warmup.Step("none", lambda: None)],
+        lambda: [
+            warmup.WarmupStep("new", lambda: compiled(1)),
+            warmup.WarmupStep("none", lambda: None),
+        ],
     )
     assert warmup.missing() == ["new"]
     assert not compiled.signatures
@@ -150,6 +153,6 @@ def test_the_error_on_a_full_disk_names_the_folder(monkeypatch):
 
     monkeypatch.setattr(numba.config, "DISABLE_JIT", 0)
     monkeypatch.setattr(warmup, "cache_folder", lambda: "/the/folder")
-    monkeypatch.setattr(warmup, "steps", lambda: [warmup.Step("one", fail)])
+    monkeypatch.setattr(warmup, "steps", lambda: [warmup.WarmupStep("one", fail)])
     with pytest.raises(OSError, match="can't be written in /the/folder: .*No space left"):
         warmup.warm_up(print)

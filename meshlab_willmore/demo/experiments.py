@@ -12,7 +12,7 @@ import pymeshlab
 
 from ..mesh.compiling import followed
 from ..options import FILTER
-from ..report.pictures import View, Window, view_from
+from ..report.pictures import Camera, Window, camera_from
 from ..report.stages import Stage
 from .models import Surface, dented_cube, sampled_torus, surface_of
 from .recorder import Notify, Recorder
@@ -27,13 +27,13 @@ from .scan import (
 )
 
 FLIPS: Filters = ((FILTER, {}),)
-CUBE_VIEW = view_from((-1.9, -1.0, 1.1), up=(0.0, 0.0, 1.0))
-TORUS_VIEW = view_from((0.0, -1.0, 1.1), up=(0.0, 0.0, 1.0))
-FACE_VIEW = view_from((0.0, 0.0, 1.0), up=(0.0, 1.0, 0.0))
+CUBE_CAMERA = camera_from((-1.9, -1.0, 1.1), up=(0.0, 0.0, 1.0))
+TORUS_CAMERA = camera_from((0.0, -1.0, 1.1), up=(0.0, 0.0, 1.0))
+FACE_CAMERA = camera_from((0.0, 0.0, 1.0), up=(0.0, 1.0, 0.0))
 # The top part of the face, as in Figure 6: from the eyes to the brim of the hat.
-CLOSEUP_VIEW = FACE_VIEW._replace(window=Window(left=-50.0, right=16.0, bottom=-20.0, top=32.0))
+CLOSEUP_CAMERA = FACE_CAMERA._replace(window=Window(left=-50.0, right=16.0, bottom=-20.0, top=32.0))
 
-Views = dict[str, View]
+Cameras = dict[str, Camera]
 
 
 class Sizes(NamedTuple):
@@ -73,9 +73,9 @@ def run_demo(folder: Path, notify: Notify, sizes: Sizes | None = None) -> DemoRe
     sizes = sizes or FULL_SIZE
     recorder = Recorder(folder, notify)
     _warm_up(notify)
-    _run_model(recorder, "cube", dented_cube(), {"cube": CUBE_VIEW})
+    _run_model(recorder, "cube", dented_cube(), {"cube": CUBE_CAMERA})
     torus = sampled_torus(sizes.torus_points)
-    _run_model(recorder, "torus", torus, {"torus": TORUS_VIEW})
+    _run_model(recorder, "torus", torus, {"torus": TORUS_CAMERA})
     try:
         path = scan_file()
     except ScanNotFoundError as reason:
@@ -85,22 +85,24 @@ def run_demo(folder: Path, notify: Notify, sizes: Sizes | None = None) -> DemoRe
     return DemoResult(recorder.stages, recorder.files)
 
 
-def _run_model(recorder: Recorder, name: str, surface: Surface, views: Views) -> None:
+def _run_model(recorder: Recorder, name: str, surface: Surface, cameras: Cameras) -> None:
     """Flip the edges of a model, with meshes and pictures before and after."""
     meshes = pymeshlab.MeshSet()
     meshes.add_mesh(pymeshlab.Mesh(*surface), name)
-    _run_flips(recorder, meshes, recorder.run_stage(meshes, name, "initial"), views)
+    _run_flips(recorder, meshes, recorder.run_stage(meshes, name, "initial"), cameras)
 
 
-def _run_flips(recorder: Recorder, meshes: pymeshlab.MeshSet, initial: Stage, views: Views) -> None:
+def _run_flips(
+    recorder: Recorder, meshes: pymeshlab.MeshSet, initial: Stage, cameras: Cameras
+) -> None:
     """Flip the current mesh, whose last stage was `initial`; save meshes and pictures."""
     name = initial.model
     recorder.save(meshes, f"{name}-before")
     before = initial, surface_of(meshes)
     after = recorder.run_stage(meshes, name, "Willmore flips", FLIPS), surface_of(meshes)
     recorder.save(meshes, f"{name}-after")
-    for picture, view in views.items():
-        recorder.save_picture(picture, before, after, view)
+    for picture, camera in cameras.items():
+        recorder.save_picture(picture, before, after, camera)
 
 
 def _run_face(recorder: Recorder, path: Path, keep_one_of: int) -> None:
@@ -110,7 +112,7 @@ def _run_face(recorder: Recorder, path: Path, keep_one_of: int) -> None:
     recorder.run_stage(meshes, "scan", "as scanned")
     cleaned = recorder.run_stage(meshes, "scan", "cleaned", CLEANING)
     scan = surface_of(meshes)
-    _run_flips(recorder, meshes, cleaned, views={})
+    _run_flips(recorder, meshes, cleaned, cameras={})
     recorder.run_stage(meshes, "scan", "Taubin smoothing", SMOOTHING)
     recorder.save(meshes, "scan-smoothed")
 
@@ -121,8 +123,8 @@ def _run_face(recorder: Recorder, path: Path, keep_one_of: int) -> None:
     meshes = pymeshlab.MeshSet()
     meshes.add_mesh(pymeshlab.Mesh(*face), "face")
     initial = recorder.run_stage(meshes, "face", "initial, cleaned", CLEANING)
-    views = {"face": FACE_VIEW, "face-closeup": CLOSEUP_VIEW}
-    _run_flips(recorder, meshes, initial, views)
+    cameras = {"face": FACE_CAMERA, "face-closeup": CLOSEUP_CAMERA}
+    _run_flips(recorder, meshes, initial, cameras)
     recorder.run_stage(meshes, "face", "Taubin smoothing", SMOOTHING)
     recorder.save(meshes, "face-smoothed")
 

@@ -73,12 +73,12 @@ class Recorder:
             meshes.save_current_mesh(str(draft), binary=True)
         self.files.append(path)
 
-    def save_picture(self, name: str, before: State, after: State, view: pictures.View) -> None:
+    def save_picture(self, name: str, before: State, after: State, camera: pictures.Camera) -> None:
         """Draw a mesh before and after the flips, if matplotlib is installed."""
         if not self._can_draw:
             return
         self.notify(f"picture: {name}")
-        figure = pictures.comparison(_shot(*before), _shot(*after), view)
+        figure = pictures.comparison(_shot(*before), _shot(*after), camera)
         path = self.folder / f"{name}.png"
         with atomic_write(path) as draft:
             figure.savefig(draft)

@@ -55,7 +55,7 @@ class Window(NamedTuple):
     top: float
 
 
-class View(NamedTuple):
+class Camera(NamedTuple):
     """An orthographic camera.
 
     rotation (3, 3): its rows are the directions to the right, upwards, and towards the viewer.
@@ -66,19 +66,19 @@ class View(NamedTuple):
     window: Window | None = None
 
 
-def view_from(direction: Vector, up: Vector, window: Window | None = None) -> View:
+def camera_from(direction: Vector, up: Vector, window: Window | None = None) -> Camera:
     """Point a camera from `direction` at the origin, with `up` upwards in the picture."""
     towards = np.array(direction) / np.linalg.norm(direction)
     right = np.cross(up, towards)
     right /= np.linalg.norm(right)
-    return View(np.stack([right, np.cross(towards, right), towards]), window)
+    return Camera(np.stack([right, np.cross(towards, right), towards]), window)
 
 
-def window_of(vertices: NDArray[np.float64], view: View) -> Window:
-    """Return the view's own window, or one that shows all vertices (n, 3) with a margin."""
-    if view.window is not None:
-        return view.window
-    flat = vertices @ view.rotation[:2].T
+def window_of(vertices: NDArray[np.float64], camera: Camera) -> Window:
+    """Return the camera's own window, or one that shows all vertices (n, 3) with a margin."""
+    if camera.window is not None:
+        return camera.window
+    flat = vertices @ camera.rotation[:2].T
     low, high = flat.min(axis=0), flat.max(axis=0)
     margin = MARGIN * (high - low).max()
     (left, bottom), (right, top) = (low - margin).tolist(), (high + margin).tolist()
@@ -108,7 +108,7 @@ def can_draw() -> bool:
     return importlib.util.find_spec("matplotlib") is not None
 
 
-def comparison(before: Shot, after: Shot, view: View) -> Figure:
+def comparison(before: Shot, after: Shot, camera: Camera) -> Figure:
     """Draw two triangulations of the same vertices: wireframes above, shaded below.
 
     Returns
@@ -119,12 +119,12 @@ def comparison(before: Shot, after: Shot, view: View) -> Figure:
     """
     from matplotlib.figure import Figure
 
-    window = window_of(before.vertices, view)
+    window = window_of(before.vertices, camera)
     panel = PANEL_WIDTH, PANEL_WIDTH * (window.top - window.bottom) / (window.right - window.left)
     page = 2 * panel[0] + GAP, 2 * panel[1] + GAP + CAPTION_HEIGHT
     figure = Figure(figsize=page, dpi=PIXELS_PER_INCH)
     for shot, left in ((before, 0.0), (after, panel[0] + GAP)):
-        facets = facets_seen(shot, view, window)
+        facets = facets_seen(shot, camera, window)
         for drawn, bottom in ((_wireframe(facets, panel), panel[1] + GAP), (_shaded(facets), 0.0)):
             place = np.array([left, bottom, *panel]) / (*page, *page)
             axes = figure.add_axes(tuple(place.tolist()))
@@ -136,9 +136,9 @@ def comparison(before: Shot, after: Shot, view: View) -> Figure:
     return figure
 
 
-def facets_seen(shot: Shot, view: View, window: Window) -> Facets:
+def facets_seen(shot: Shot, camera: Camera, window: Window) -> Facets:
     """Select, sort and light the triangles that face the camera and touch the window."""
-    corners = (shot.vertices @ view.rotation.T)[shot.faces]
+    corners = (shot.vertices @ camera.rotation.T)[shot.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     low, high = corners.min(axis=1), corners.max(axis=1)
     seen = (

@@ -6,7 +6,7 @@ import numpy as np
 import pymeshlab
 import pytest
 
-from meshlab_willmore.demo.experiments import CLOSEUP_VIEW, FLIPS, Sizes, run_demo
+from meshlab_willmore.demo.experiments import CLOSEUP_CAMERA, FLIPS, Sizes, run_demo
 from meshlab_willmore.demo.models import (
     Surface,
     dented_cube,
@@ -145,7 +145,7 @@ def test_pictures_are_written_and_not_blank(demo):
 
 
 def test_closeup_lies_within_the_face(cleaned):
-    window = CLOSEUP_VIEW.window
+    window = CLOSEUP_CAMERA.window
     x, y, _ = cleaned.vertices.T
     assert x.min() < window.left < window.right < x.max()
     assert y.min() < window.bottom < window.top < y.max()

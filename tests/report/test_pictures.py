@@ -3,19 +3,19 @@
 import numpy as np
 import pytest
 
-from meshlab_willmore.report.pictures import View, Window, view_from, window_of
+from meshlab_willmore.report.pictures import Camera, Window, camera_from, window_of
 
-FROM_ABOVE = view_from((0.0, 0.0, 1.0), up=(0.0, 1.0, 0.0))
+FROM_ABOVE = camera_from((0.0, 0.0, 1.0), up=(0.0, 1.0, 0.0))
 
 
 # The camera
 
 
 def test_camera_is_a_rotation_with_up_upwards():
-    view = view_from((1.0, -2.0, 0.5), up=(0.0, 0.0, 1.0))
-    np.testing.assert_allclose(view.rotation @ view.rotation.T, np.eye(3), atol=1e-15)
-    assert np.linalg.det(view.rotation) == pytest.approx(1)
-    right, up, towards = view.rotation
+    camera = camera_from((1.0, -2.0, 0.5), up=(0.0, 0.0, 1.0))
+    np.testing.assert_allclose(camera.rotation @ camera.rotation.T, np.eye(3), atol=1e-15)
+    assert np.linalg.det(camera.rotation) == pytest.approx(1)
+    right, up, towards = camera.rotation
     assert right[2] == 0
     assert up[2] > 0
     np.testing.assert_allclose(np.cross(towards, (1.0, -2.0, 0.5)), 0, atol=1e-15)
@@ -26,7 +26,7 @@ def test_window_shows_all_vertices_unless_it_is_given():
     window = window_of(vertices, FROM_ABOVE)
     assert window == pytest.approx((-0.08, 4.08, -0.08, 2.08))
     part = Window(1.0, 2.0, 0.0, 1.0)
-    assert window_of(vertices, View(FROM_ABOVE.rotation, part)) is part
+    assert window_of(vertices, Camera(FROM_ABOVE.rotation, part)) is part
 
 
 # Pictures
@@ -64,9 +64,9 @@ def roof():
 def test_four_panels_share_one_camera(pictures):
     vertices, faces = roof()
     window = Window(-0.5, 1.5, -1.0, 0.5)
-    view = View(FROM_ABOVE.rotation, window)
+    camera = Camera(FROM_ABOVE.rotation, window)
     shots = pictures.Shot("before", vertices, faces), pictures.Shot("after", vertices, faces[::-1])
-    figure = pictures.comparison(*shots, view)
+    figure = pictures.comparison(*shots, camera)
     assert [(*axes.get_xlim(), *axes.get_ylim()) for axes in figure.axes] == [window] * 4
     assert [text.get_text() for text in figure.texts] == ["before", "after"]
     _, panels = pixels(figure)

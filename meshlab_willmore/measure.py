@@ -19,12 +19,14 @@ from .guards.intersections import mark_intersecting
 from .mesh.build import build, interior_vertices
 from .mesh.halfedge import Mesh
 from .mesh.jit import at, jit
-from .mesh.parallel import CHUNK, thread_pool
+from .mesh.parallel import thread_pool
 from .mesh.validate import check_mesh, in_input_units, to_unit_scale
 
 FULL_TURN = 2.0 * math.pi
 # Faces of one call of a kernel, which no interrupt ends.
 FACES_PER_CALL = 20_000
+# Half-edges of one sum of angles: a constant of its own, as a kernel reads it.
+CHUNK = 2048
 # Angles that are multiplied as complex numbers before these get too small.
 MOST_PRODUCTS = 64
 

@@ -14,8 +14,8 @@ CONNECTIVITY = [
     Fault(
         "a new edge may exist already",
         "mesh/halfedge.py",
-        " and not are_joined(mesh, previous(h), previous(t))",
-        "",
+        "return apex(mesh, h) != apex(mesh, t) and not are_joined(mesh, previous(h), previous(t))",
+        "return apex(mesh, h) != apex(mesh, t)",
         MESH,
     ),
     Fault(

@@ -27,7 +27,8 @@ def _name(kernel):
 
 
 def _plain_functions():
-    """All functions of the package's modules that are not compiled."""
+    """All functions of the package's modules that are not compiled, nor templates of kernels."""
+    templates = {kernel.py_func.__code__ for kernel in jit.KERNELS}
     for found in pkgutil.walk_packages(meshlab_willmore.__path__, f"{meshlab_willmore.__name__}."):
         if found.name.endswith("__main__"):
             continue
@@ -35,7 +36,8 @@ def _plain_functions():
         for name, value in vars(module).items():
             is_ours = isinstance(value, types.FunctionType) and value.__module__ == module.__name__
             # Beside some there is a compiled version, which kernels call.
-            if is_ours and f"_compiled_{name}" not in vars(module):
+            is_python = is_ours and f"_compiled_{name}" not in vars(module)
+            if is_python and value.__code__ not in templates:
                 yield value
 
 

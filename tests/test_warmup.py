@@ -33,7 +33,7 @@ print(sorted(name for name, kernel in kernels.items() if not kernel.signatures))
 USED = """
 import numpy as np, pymeshlab, meshlab_willmore
 from meshlab_willmore import measure, optimize_flips
-from meshlab_willmore.compare import figures
+from meshlab_willmore.compare.quality import quality_of
 from meshlab_willmore.mesh import compiling
 from tests import meshes
 FLIP = "meshing_edge_flip_by_willmore_optimization"
@@ -60,7 +60,7 @@ with compiling.forbidden():
     optimize_flips(shared, faces, wedge_uv=np.asfortranarray(shared[faces])[:, :, 1:])
     optimize_flips(np.zeros((0, 3)), np.zeros((0, 3), int))
     measure.self_intersections(vertices, np.asfortranarray(faces))
-    figures.figures(ms, ms.current_mesh().face_matrix(), None)
+    quality_of(ms, ms.current_mesh().face_matrix(), None)
 print("[]")
 """
 

@@ -3,6 +3,7 @@
 import ast
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -11,6 +12,7 @@ from meshlab_willmore.energy.table import AT, ENERGIES, VIRTUAL_POINTS
 from meshlab_willmore.search import compiled, greedy
 from meshlab_willmore.search.compiled import KERNELS, PLACED_KERNELS
 
+ROOT = Path(__file__).parents[2]
 SCRIPT = """
 from meshlab_willmore.mesh.build import build, faces_of
 from meshlab_willmore.search import greedy
@@ -51,8 +53,7 @@ def test_a_copy_has_a_name_and_globals_of_its_own():
 def test_a_second_process_finds_each_copy_and_no_other():
     command = [sys.executable, "-W", "error", "-c", SCRIPT]
     first, second = (
-        ast.literal_eval(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
-        for _ in range(2)
+        ast.literal_eval(subprocess.check_output(command, text=True, cwd=ROOT)) for _ in range(2)
     )
     assert [misses for misses, _ in second] == [0, 0, 0]
     faces = [found for _, found in first]

@@ -25,8 +25,8 @@ from .mesh.validate import check_mesh, in_input_units, to_unit_scale
 FULL_TURN = 2.0 * math.pi
 # Faces of one call of a kernel, which no interrupt ends.
 FACES_PER_CALL = 20_000
-# Half-edges of one sum of angles: a constant of its own, as a kernel reads it.
-CHUNK = 2048
+# Half-edges of one sum of angles; a constant of its own, as a kernel reads it.
+HALF_EDGES_PER_SUM = 2048
 # Angles that are multiplied as complex numbers before these get too small.
 MOST_PRODUCTS = 64
 
@@ -219,10 +219,10 @@ def self_intersections(vertices, faces):
 
 def willmore_energy_of(mesh):
     """Return the Willmore energy of a half-edge mesh, as `willmore_energy` does."""
-    chunks = -(-len(mesh.origin) // CHUNK)
+    chunks = -(-len(mesh.origin) // HALF_EDGES_PER_SUM)
     task = _Parts(mesh, interior_vertices(mesh), np.zeros(chunks), np.zeros(chunks))
     with thread_pool() as parallel_for:
-        parallel_for(_add_angles, task, len(mesh.origin), CHUNK)
+        parallel_for(_add_angles, task, len(mesh.origin), HALF_EDGES_PER_SUM)
     half_turns = task.half_turns.sum() - 2.0 * np.count_nonzero(task.interior)
     energy = float(math.pi * half_turns + task.rest.sum())
     # Undefined angles leave out single vertices.
@@ -270,8 +270,8 @@ def _add_angles(task, start, stop):
             half_turns += angles.half_turns
             rest += math.atan2(angles.s, angles.r)
             angles, products = NO_ANGLES, 0
-    task.half_turns[start // CHUNK] = half_turns + angles.half_turns
-    task.rest[start // CHUNK] = rest + math.atan2(angles.s, angles.r)
+    task.half_turns[start // HALF_EDGES_PER_SUM] = half_turns + angles.half_turns
+    task.rest[start // HALF_EDGES_PER_SUM] = rest + math.atan2(angles.s, angles.r)
 
 
 class _Angles(NamedTuple):

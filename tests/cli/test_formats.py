@@ -138,7 +138,7 @@ def test_no_note_near_the_origin(capsys):
 
 
 @pytest.mark.parametrize(
-    ("ending", "far", "is_told"),
+    ("ending", "far", "is_noted"),
     [
         ("stl", 2e6, True),
         ("stl", 3e2, False),
@@ -147,11 +147,11 @@ def test_no_note_near_the_origin(capsys):
         ("obj", 2e6, False),
     ],
 )
-def test_vertices_move_far_from_the_origin(ending, far, is_told, capsys):
+def test_vertices_move_far_from_the_origin(ending, far, is_noted, capsys):
     slanted = SQUARE + [[0.1, 0.3, 0.1], [0.2, 0.1, 0.6], [0.4, 0.3, 0.2], [0.1, 0.2, 0.9]]
     slanted[:, :2] += far
     note = notes(f"a.{ending}", capsys, vertex_matrix=slanted)
     start = (
         f"Note: a.{ending}: so far from the origin, .{ending} files hold too few digits: vertices"
     )
-    assert note.startswith(start) if is_told else note == ""
+    assert note.startswith(start) if is_noted else note == ""

@@ -101,9 +101,9 @@ def test_keywords_and_types_are_those_that_pymeshlab_prints(capfd):
 @recorded_here
 def test_choices_are_those_that_pymeshlab_names():
     recorded = {known.name: [p.choices for p in known.params] for known in map(find, NATIVES)}
-    told = {name: [p.choices for p in filter_info.params(name)] for name in NATIVES}
-    assert told == recorded
-    assert sum(len(choices) > 1 for params in told.values() for choices in params) > 50
+    found = {name: [p.choices for p in filter_info.params(name)] for name in NATIVES}
+    assert found == recorded
+    assert sum(len(choices) > 1 for params in found.values() for choices in params) > 50
 
 
 @recorded_here

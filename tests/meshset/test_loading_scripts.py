@@ -55,12 +55,12 @@ print(ms.mesh_number())
 def test_scripts_without_our_filters_behave_as_before(text, tmp_path):
     script, saved = tmp_path / "script.mlx", tmp_path / "saved.mlx"
     script.write_text(text)
-    told, results = [], []
+    printed, results = [], []
     for mode in ("without", "with"):
-        told.append(natively(NATIVE_SCRIPT, script, mode, saved))
+        printed.append(natively(NATIVE_SCRIPT, script, mode, saved))
         # Qt writes attributes in an order that changes from run to run.
         results.append(read(saved) if "<filter" in saved.read_text() else saved.read_text())
-    assert told[0] == told[1]
+    assert printed[0] == printed[1]
     assert [sorted_params(result) for result in results[:1]] == [sorted_params(results[1])]
 
 

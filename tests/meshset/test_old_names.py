@@ -337,8 +337,8 @@ def test_warnings_distinguish_another_result_from_another_name():
             Param("Offset", "RichFloat", 2.0),
         ),
     )
-    told = [(w.param, w.changes_result) for w in warnings_of(step)]
-    assert told[:4] == [("", True), ("OctDepth", False), ("SolverDivide", False), ("Offset", True)]
+    found = [(w.param, w.changes_result) for w in warnings_of(step)]
+    assert found[:4] == [("", True), ("OctDepth", False), ("SolverDivide", False), ("Offset", True)]
     assert "Screened Poisson" in warnings_of(step)[0].text
 
 
@@ -349,9 +349,9 @@ def test_a_script_of_today_has_no_warning():
 
 def test_changed_defaults_are_reported_where_the_script_shows_its_age():
     hausdorff = Step("Hausdorff Distance", (Param("SampleFace", "RichBool", True),))
-    told = warnings_of(hausdorff, Step("Box"))
-    assert [(w.step, w.param) for w in told] == [(2, ""), (1, "SampleEdge")]
-    assert "it was true until MeshLab 2017.06, and is false today" in told[1].text
+    found = warnings_of(hausdorff, Step("Box"))
+    assert [(w.step, w.param) for w in found] == [(2, ""), (1, "SampleEdge")]
+    assert "it was true until MeshLab 2017.06, and is false today" in found[1].text
     # A name that 2021 still had proves no such age.
     newer = Step("Repair non Manifold Edges by splitting vertices")
     assert [w.step for w in warnings_of(hausdorff, newer)] == [2]
@@ -363,8 +363,8 @@ def test_an_old_attribute_shows_age_as_well():
         b"<Param name='Adaptive' type='RichBool' value='false' isxmlparam='0'/>"
         b"</filter></FilterScript>"
     )
-    (told,) = warnings_of(*read_bytes(data, "s"))
-    assert (told.param, told.changes_result) == ("Iterations", True)
+    (warning,) = warnings_of(*read_bytes(data, "s"))
+    assert (warning.param, warning.changes_result) == ("Iterations", True)
 
 
 @pytest.mark.parametrize(

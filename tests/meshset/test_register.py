@@ -435,8 +435,8 @@ def test_without_a_system_library_arrays_work_and_a_warning_brings_the_cure():
     area, refusal = run.stdout.splitlines()
     assert float(area) == 0.5
     assert refusal.startswith(f"refused PyMeshLab could not be loaded: {text}")
-    for told in (run.stderr, refusal):
-        assert "apt-get install libgl1 libopengl0" in told
+    for message in (run.stderr, refusal):
+        assert "apt-get install libgl1 libopengl0" in message
     assert run.stderr.count("UserWarning") == 1
 
 

@@ -1,4 +1,4 @@
-"""The copies of the searches: one for each energy, told apart by the cache of compiled kernels."""
+"""The copies of the searches: one for each energy, distinguished by the cache of kernels."""
 
 import ast
 import subprocess

@@ -18,7 +18,7 @@ from .energy.table import ENERGIES, VIRTUAL_POINTS
 # The filter whose parameters these are.
 FILTER = "meshing_edge_flip_by_willmore_optimization"
 # The value of `maxflips` that sets no limit; for `optimize_flips` that is None.
-NO_LIMIT = -1
+UNLIMITED = -1
 MOST_DEPTH = 100
 MOST_BREADTH = 12
 
@@ -273,9 +273,9 @@ FEATUREDEG = Option(
 MAXFLIPS = Option(
     "maxflips",
     int,
-    NO_LIMIT,
+    UNLIMITED,
     "Most flips",
-    f"Stop after this many flips; {NO_LIMIT} sets no limit.",
+    f"Stop after this many flips; {UNLIMITED} sets no limit.",
     _limit,
 )
 ALLOWLOSS = Option(

@@ -8,7 +8,7 @@ from typing import Any
 
 import pymeshlab
 
-from ..options import ALLOWLOSS, FILTER, NO_LIMIT, OPTIONS, SELECTION, VIRTUALPOINT, Option
+from ..options import ALLOWLOSS, FILTER, OPTIONS, SELECTION, UNLIMITED, VIRTUALPOINT, Option
 from . import edge_flags, exchange, ids, interrupts, native
 from .filter import Filter, current_surface
 from .parameters import Parameter
@@ -23,9 +23,9 @@ def _has_selected_faces(ms: pymeshlab.MeshSet | None) -> bool:
 
 def _limit(maxflips: int) -> int | None:
     """The number of flips, or None for no limit."""
-    if maxflips < NO_LIMIT:
-        raise ValueError(f"maxflips must be {NO_LIMIT} (no limit) or more, it is {maxflips}")
-    return None if maxflips == NO_LIMIT else maxflips
+    if maxflips < UNLIMITED:
+        raise ValueError(f"maxflips must be {UNLIMITED} (no limit) or more, it is {maxflips}")
+    return None if maxflips == UNLIMITED else maxflips
 
 
 def _place(text: str) -> str | float:

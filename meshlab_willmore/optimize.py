@@ -92,9 +92,10 @@ class FlipResult(NamedTuple):
         willmore", by the option `monotone`: if True, flips that raise the Willmore energy, if
         False, flips to an edge that was flipped away before. So other flips may be left that lower
         the energy. A second run from the result makes no flip, except: with `monotone` False; with
-        "annealing" and "thorough", which may find more; with `featuredeg`, as creases are found in
-        the input; and where flips that keep the Willmore energy go in circles, which the search
-        stops after ten rounds.
+        "annealing" and "thorough", which may find more; with "variable depth" where the next flips
+        of a chain tie, as their order, which then decides, depends on that of the faces; with
+        `featuredeg`, as creases are found in the input; and where flips that keep the Willmore
+        energy go in circles, which the search stops after ten rounds.
     reason : str
         Why it stopped.
     corners : (m, 3) int32

@@ -44,7 +44,7 @@ def _beside_each_other(u, w, r):
     """Return the places of the virtual points on parallel diagonals, given as in `closest`."""
     squared, along = dot(u, u), dot(w, u)
     if squared == 0.0 or along == 0.0:
-        # One has no length: no flip comes of that, wherever the points are.
+        # One has no length: such a flip is refused, wherever the points are.
         return MIDDLE, MIDDLE
     start, step = dot(r, u) / squared, along / squared
     one, other = start + MARGIN * step, start + (1.0 - MARGIN) * step

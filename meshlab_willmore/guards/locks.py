@@ -92,7 +92,7 @@ def _differ(uv, a, b):
 
 @inner
 def _is_degenerate(mesh, h):
-    """Whether one of the two faces at `h` has no normal to speak of."""
+    """Whether the normal of one of the two faces at `h` is made of rounding."""
     i, j, k, l = diamond(mesh, h)
     return min(triangle_shape(i, j, k), triangle_shape(j, i, l)) < CREASE_SHAPE
 

@@ -167,7 +167,7 @@ def find_ring(state, h):
 
 @inner
 def _may_flip(state, h):
-    """Whether connectivity, locks and guards allow to flip `h`, energies aside."""
+    """Whether the guards allow to flip `h`, which is free, to an edge that does not exist yet."""
     reason = refusal_by_all(state.mesh, state.bvh, h, state.rules)
     if reason == INTERSECTS:
         state.hit_cut[0] = True
@@ -343,7 +343,7 @@ def find_chain(state, start, ranking, judge):
         if place != NONE:
             h, score = np.int64(chain.candidate[s, place]), chain.score[s, place]
             _add(state, h, s, score, score if judge is None else judge.cost_reduction(mesh, h))
-            # Where an angle is undefined, nothing comes of it.
+            # A flip with an undefined angle is never part of a chain.
             if not np.isfinite(chain.drop[s + 1]):
                 continue
             best = _better(state, s + 1, best)

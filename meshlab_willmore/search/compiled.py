@@ -62,7 +62,8 @@ def specialised(template, energy, judge=None):
     function
         Not compiled, with a name of its own, by which Numba's cache tells the copies apart.
     """
-    name = f"{template.__name__}_{energy.__name__.rpartition('.')[2]}"
+    modules = [module.__name__.rpartition(".")[2] for module in (energy, judge) if module]
+    name = "_".join([template.__name__, *modules])
     names = {**template.__globals__, "energy": energy, "judge": judge}
     copy = FunctionType(template.__code__, names, name)
     copy.__qualname__ = name

@@ -24,11 +24,11 @@ before the round and those that these flips have made. k-l is none of the former
 would have been refused. One of the latter it can be only if another maximum makes the same edge.
 Such maxima are *contested*: they are flipped after all others, one by one, and each is asked again
 on the mesh as it is then. What was refused before the round is never flipped in it, although a flip
-may free it: its new edge and its new faces were compared with nobody's. It is blocked by an edge or
-a face, and is scored for the next round once that changes. The same holds for cuts: the faces are
-those before the round and those that its flips make, and who would cut one of the latter is
-contested. The order of the maxima does not depend on how the work was shared. So the result is the
-same, bit for bit, for any number of threads.
+may free it: its new edge and faces were compared with no others. It is blocked by an edge or a
+face, and is scored for the next round once that changes. The same holds for intersections: the
+faces are those before the round and those that its flips make, and a maximum that would cut one of
+the latter is contested. The order of the maxima does not depend on how the work was shared. So the
+result is the same, bit for bit, for any number of threads.
 """
 
 from typing import NamedTuple
@@ -48,9 +48,9 @@ from .rules import (
     ALLOWED,
     CONVERGED,
     DEFAULTS,
+    EXISTS,
     FOLDS,
     INTERSECTS,
-    JOINED,
     MOST_PASSES,
     STOPPED,
     WORKING,
@@ -202,7 +202,7 @@ def _is_refused(state, h, verdict, is_contested, number):
     The verdict says how that was before the round. Only what is contested is asked again.
     """
     mesh = state.mesh
-    is_joined = verdict == JOINED or (is_contested and not makes_new_edge(mesh, h))
+    is_joined = verdict == EXISTS or (is_contested and not makes_new_edge(mesh, h))
     if is_joined:
         insert(state.blocking, apex(mesh, h), apex(mesh, mesh.twin[at(h)]))
     if is_joined or verdict == FOLDS:
@@ -275,11 +275,12 @@ def flip_maxima(maxima, start, stop, first, left, number, done):
 def _flip_all(maxima, first, left, number):
     """Flip all maxima that are allowed; return the state, and what was done."""
     state, done = maxima.state, RoundResult(0, 0, 0.0, WORKING)
-    for start in range(0, len(maxima.edges), rounds.CHUNK):
+    for start in range(0, len(maxima.edges), rounds.EDGES_PER_CALL):
         state = state._replace(
-            tabu=reserve(state.tabu, rounds.CHUNK), blocking=reserve(state.blocking, rounds.CHUNK)
+            tabu=reserve(state.tabu, rounds.EDGES_PER_CALL),
+            blocking=reserve(state.blocking, rounds.EDGES_PER_CALL),
         )
-        stop = min(start + rounds.CHUNK, len(maxima.edges))
+        stop = min(start + rounds.EDGES_PER_CALL, len(maxima.edges))
         maxima = maxima._replace(state=state)
         done = RoundResult(*flip_maxima(maxima, start, stop, first, left, number, tuple(done)))
         if done.state == STOPPED:
@@ -293,8 +294,8 @@ def _flip_all(maxima, first, left, number):
 def _possible_maxima(state, dirty, refused, ranked):
     """Return the edges that may be maxima, and the new length of the list of the ranked.
 
-    Who was no maximum, and around whom nothing changed, is none now. Where much changed, it is
-    quicker to look at all.
+    An edge that was no maximum, and around which nothing changed, is none now. Where much changed,
+    it is quicker to look at all.
     """
     if ACTIVE_PER_CHANGE * (dirty + refused) < ranked:
         changed = np.concatenate([state.dirty[:dirty], state.done[len(state.done) - refused :]])

@@ -11,7 +11,7 @@ import numpy as np
 from ..guards.bvh import Bvh
 from ..mesh.halfedge import NONE, Mesh, previous
 from ..mesh.jit import at, inlined, inner, jit
-from ..mesh.parallel import CHUNK as PARALLEL_CHUNK
+from ..mesh.parallel import CHUNK
 
 # Numba keeps no kernel on disk that hands on a function of its own module by its plain name.
 from . import rounds, stencil
@@ -27,7 +27,7 @@ from .containers import (
 from .rules import Rules
 
 # Items of work that is done in order by one call of a kernel; interrupts are served between two.
-CHUNK = 16 * PARALLEL_CHUNK
+EDGES_PER_CALL = 16 * CHUNK
 # Half-edges of a block, of which all are looked through if one is dirty.
 BLOCK_BITS = 9
 BLOCK = 1 << BLOCK_BITS
@@ -67,7 +67,7 @@ class RoundState(NamedTuple):
     taken : (n,) bool
         Corners of what was flipped, for an energy that looks round whole corners.
     tabu, blocking : PairSet
-        The edges that must not come back; those that stood in the way of a flip to them.
+        The edges that must not come back; those that blocked a flip to them.
     tabu_hit : (1,) bool
         Whether a flip was refused for an edge of `tabu`.
     new_edge : (n,) int64
@@ -146,8 +146,8 @@ class Candidates(NamedTuple):
 
 def in_chunks(kernel, task, stop, value):
     """Let a kernel that works in order pass a value on, chunk by chunk."""
-    for start in range(0, stop, CHUNK):
-        value = kernel(task, start, min(start + CHUNK, stop), value)
+    for start in range(0, stop, EDGES_PER_CALL):
+        value = kernel(task, start, min(start + EDGES_PER_CALL, stop), value)
     return value
 
 

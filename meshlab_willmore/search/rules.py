@@ -10,7 +10,7 @@ from .containers import contains, watch
 
 WORKING, CONVERGED, STOPPED = range(3)
 # Why a flip is refused.
-ALLOWED, FOLDS, JOINED, INTERSECTS = range(4)
+ALLOWED, FOLDS, EXISTS, INTERSECTS = range(4)
 NO_LIMIT = 2**62
 # Ties that go round in circles are made this often.
 MOST_PASSES = 10
@@ -149,7 +149,7 @@ def refusal(mesh, h, rules):
     if guards.folds(mesh, h, rules.fold):
         return FOLDS
     # Last, since it alone takes longer than O(1).
-    return ALLOWED if makes_new_edge(mesh, h) else JOINED
+    return ALLOWED if makes_new_edge(mesh, h) else EXISTS
 
 
 @generic

@@ -184,7 +184,7 @@ SEARCHES = [
     Fault(
         "a search may make an edge twice",
         "search/rules.py",
-        "return ALLOWED if makes_new_edge(mesh, h) else JOINED",
+        "return ALLOWED if makes_new_edge(mesh, h) else EXISTS",
         "return ALLOWED",
         "tests/search/test_greedy.py::test_the_cycle_on_a_random_torus_ends "
         "tests/search/test_parallel_greedy.py::"

@@ -21,8 +21,8 @@ from meshlab_willmore.search.rounds import Candidates, initial_state
 from meshlab_willmore.search.rules import (
     ALLOWED,
     CONVERGED,
+    EXISTS,
     INTERSECTS,
-    JOINED,
     STOPPED,
     Settings,
 )
@@ -220,7 +220,7 @@ def test_of_two_flips_to_the_same_edge_the_smaller_waits_until_it_is_gone(larger
     # In a later round the edge is there already.
     state.rank[other] = state.rank[mesh.twin[other]] = 1.0
     verdict, _, _ = maxima_of(state, [other], 2)
-    assert list(verdict) == [JOINED]
+    assert list(verdict) == [EXISTS]
     # Once it is flipped away, the edge that waits is looked at again.
     for _ in range(3):
         flip(mesh, one)

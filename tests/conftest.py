@@ -5,6 +5,7 @@ Before workers of pytest-xdist start, everything is compiled, on all cores.
 """
 
 import atexit
+import contextlib
 import os
 import shutil
 import signal
@@ -70,9 +71,10 @@ def pytest_sessionstart(session):
         return
     subprocess.run([sys.executable, "-c", WARM_UP], check=True)
     cache = Path(os.environ["NUMBA_CACHE_DIR"])
-    states = sorted(cache.iterdir(), key=lambda folder: folder.stat().st_mtime)
-    for old in states[:-KEPT]:
-        shutil.rmtree(old, ignore_errors=True)
+    with contextlib.suppress(FileNotFoundError):  # where another run deletes them at the same time
+        states = sorted(cache.iterdir(), key=lambda folder: folder.stat().st_mtime)
+        for old in states[:-KEPT]:
+            shutil.rmtree(old, ignore_errors=True)
 
 
 def pytest_collection_modifyitems(config, items):

@@ -1,5 +1,6 @@
 """The subprocesses of a comparison: they end in time, alone, and leave nothing."""
 
+import json
 import signal
 import subprocess
 import sys
@@ -75,6 +76,14 @@ def test_crash_and_error_are_reported(task):
 def test_process_that_does_not_start_is_reported(task, monkeypatch):
     monkeypatch.setattr(compare_row, "_PROGRAM", "import sys; sys.exit(3) # {path} {module}")
     assert compare_row.run(task, OWN, print).error == "the process ended with exit code 3"
+
+
+def test_filter_that_exits_is_not_called_too_slow(task, monkeypatch):
+    program = (
+        f"print({json.dumps(compare_row.RUNNING)!r}); raise SystemExit(1) # {{path}} {{module}}"
+    )
+    monkeypatch.setattr(compare_row, "_PROGRAM", program)
+    assert compare_row.run(task, OWN, print).error == "the process ended with exit code 1"
 
 
 def test_filter_is_warmed_up_before_timing(task, monkeypatch):

@@ -117,7 +117,8 @@ def kept_working_folder() -> Iterator[None]:
     """The process is in the same working folder afterwards, whatever native calls do inside.
 
     A load that fails leaves PyMeshLab in the folder of its file, and so does one that succeeds
-    where the working folder was deleted: relative names then mean other files.
+    where the working folder was deleted: relative names then mean other files. Screened
+    Poisson reconstruction that fails leaves it in a temporary folder that is gone.
     """
     if sys.platform == "win32":
         folder = os.getcwd()

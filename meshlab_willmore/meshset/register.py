@@ -162,12 +162,16 @@ def _apply_filter(before: Callable, ms: MeshSet, /, *args: Any, **given: Any) ->
         recording.note_step(ms, filter_, values)
         return returned
     if not ids.has_moved(ms):
-        with native.in_order_if_verbose(ms):
+        with native.kept_working_folder(), native.in_order_if_verbose(ms):
             returned = before(ms, *args, **given)
         recording.note_native_step(ms, recording.NO_IDS)
         return returned
     name = args[0] if args else given.get("filter_name")
-    with native_calls.prepared(ms, name, given) as called, native.in_order_if_verbose(ms):
+    with (
+        native.kept_working_folder(),
+        native_calls.prepared(ms, name, given) as called,
+        native.in_order_if_verbose(ms),
+    ):
         returned = before(ms, *args, **called)
     recording.note_native_step(ms, native_calls.logical_ids(ms, name, called))
     return returned

@@ -300,6 +300,17 @@ def test_a_file_that_cannot_be_read_leaves_the_working_folder(tmp_path, monkeypa
     assert bumpy.current_mesh().vertex_number() == 300
 
 
+@pytest.mark.parametrize("has_flipped", [False, True])
+def test_a_filter_that_fails_leaves_the_working_folder(tmp_path, monkeypatch, bumpy, has_flipped):
+    monkeypatch.chdir(tmp_path)
+    if has_flipped:
+        bumpy.apply_filter(FLIP)
+    bumpy.add_mesh(pymeshlab.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]]))
+    with pytest.raises(pymeshlab.PyMeshLabException):
+        bumpy.generate_surface_reconstruction_screened_poisson()
+    assert os.getcwd() == str(tmp_path)
+
+
 def test_flips_work_in_a_folder_that_is_gone(tmp_path, monkeypatch, bumpy):
     here = tmp_path / "here"
     here.mkdir()

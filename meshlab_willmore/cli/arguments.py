@@ -188,7 +188,7 @@ def take_outputs(args: Sequence[str], ctx: click.Context) -> tuple[list[Output],
             common += () if last else parts
             last = [output._replace(parts=(*output.parts, *parts)) for output in last]
         elif name == "--layer" or (name == "-l" and is_behind):
-            layer = _layer(name, words.take_value(attached), last, ctx)
+            layer = _layer(name, words.take_value(attached), last)
             last = [output._replace(layer=layer) for output in last]
         elif name == "-l":
             values = words.take_value(attached)
@@ -222,10 +222,11 @@ def _parts(name: str, words: _Words, attached: list[str], ctx: click.Context) ->
     return tuple(_PART.convert(part, option, ctx) for part in parts)
 
 
-def _layer(name: str, values: Sequence[str], outputs: Sequence[Output], ctx: click.Context) -> str:
+def _layer(name: str, values: Sequence[str], outputs: Sequence[Output]) -> str:
     """The layer for outputs."""
     if name == "--layer":
-        _check_given(name, values, ctx)
+        if not values:
+            raise WrongUse(f"--layer needs the layer to save: {LAYER_HELP}")
         if not outputs:
             raise WrongUse(f"--layer {values[0]} comes before every -o; put it behind one")
         if not _LAYER.fullmatch(values[0]):

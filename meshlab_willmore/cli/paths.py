@@ -346,6 +346,8 @@ def _check_distinct(jobs: Iterable[Job], inputs: Iterable[Path]) -> None:
         source = job.inputs[0] if job.inputs else Path("the script's own mesh")
         for output in job.outputs:
             key = _identity(output.path)
+            if writers.get(key) == source:
+                raise WrongUse(f"{output.path} is named twice as an output; name it once")
             if key in writers:
                 raise WrongUse(
                     f"{writers[key]} and {source} would both be written to {output.path}; "

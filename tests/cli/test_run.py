@@ -252,6 +252,10 @@ def no_step(monkeypatch):
             "cube.ply and two.ply would both be written to ply.obj; use {index} or {dir}",
         ),
         (
+            ["script.mlx", "-i", "cube.ply", "-o", "a.ply", "./a.ply"],
+            "a.ply is named twice as an output; name it once",
+        ),
+        (
             ["script.mlx", "-i", "two.ply", "cube.ply", "--force", "-o", "{dir}/cube.ply"],
             "the result of two.ply would replace the input cube.ply",
         ),

@@ -14,6 +14,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+import hypothesis
 import pytest
 
 # Started in the background (nohup, some CI), a process ignores these, and so would its children.
@@ -23,6 +24,10 @@ if hasattr(signal, "SIGHUP"):
 
 # PyMeshLab reads names of files as the locale says, and tests have some with all kinds of letters.
 os.environ["LC_ALL"] = "C.UTF-8"
+
+# The same cases in each run: a change fails by what it changes, not by chance or by a slow machine.
+hypothesis.settings.register_profile("same cases", derandomize=True, deadline=None)
+hypothesis.settings.load_profile("same cases")
 
 JIT_IS_OFF = os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0")
 IS_WORKER = "PYTEST_XDIST_WORKER" in os.environ

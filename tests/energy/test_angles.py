@@ -96,7 +96,7 @@ def test_a_complex_angle_has_a_length_that_products_bear():
         assert beta.s >= 0.0
 
 
-@settings(derandomize=True, deadline=None, max_examples=100)
+@settings(max_examples=100)
 @given(st.lists(st.floats(0.0, math.pi), max_size=40))
 def test_a_sum_of_angles_is_the_sum_of_the_angles(betas):
     total = NO_ANGLES

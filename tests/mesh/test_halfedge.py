@@ -20,7 +20,7 @@ from meshlab_willmore.mesh.halfedge import (
 from tests import meshes, reference
 from tests.connectivity import can_flip, validate_connectivity
 
-QUICK = settings(derandomize=True, deadline=None, max_examples=25)
+QUICK = settings(max_examples=25)
 MIXED = [
     meshes.bumpy_sphere(30),
     meshes.patch(30),

@@ -73,7 +73,7 @@ def test_meshlab_reads_every_type_as_meant(tmp_path):
     assert list(map(as_written, reloaded(tmp_path / "s.mlx"))) == list(map(as_written, steps))
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(scripts.steps(NATIVE_TYPES))
 def test_meshlab_drops_nothing_of_what_is_written(tmp_path_factory, steps):
     kept = [

@@ -20,6 +20,7 @@ from ..mlx.steps import (
     ScriptWarning,
     Step,
     Value,
+    add_fault,
     quoted,
     shortened,
 )
@@ -122,8 +123,9 @@ def examine(reading: Reading, mesh_ids: Collection[int] | None = None) -> Findin
 def _merged(read: Iterable[Fault], checked: Iterable[Fault]) -> tuple[Fault, ...]:
     """Faults by the number of the step; of each step, those of the reading come first."""
     faults = sorted([*read, *checked], key=lambda fault: fault.step)
-    faults = [fault for fault in faults if fault != MORE_FAULTS]
-    return (*faults[:MOST_FAULTS], MORE_FAULTS) if len(faults) > MOST_FAULTS else tuple(faults)
+    first = [fault for fault in faults if fault != MORE_FAULTS]
+    are_more = len(first) < len(faults) or len(first) > MOST_FAULTS
+    return (*first[:MOST_FAULTS], MORE_FAULTS) if are_more else tuple(first)
 
 
 _LOOSE = (
@@ -349,10 +351,9 @@ class _Checker:
         return self._ids is not None and self._left <= 0 and not self._may_be_more
 
     def _add(self, text: str, param: str = "") -> None:
-        if len(self.faults) > MOST_FAULTS:
-            raise _TooManyFaultsError
         name = shortened(self._step.filter)
-        self.faults.append(Fault(text, self._number, name, shortened(param)))
+        if not add_fault(self.faults, Fault(text, self._number, name, shortened(param))):
+            raise _TooManyFaultsError
 
 
 def _check_range(known: FilterInfo, own: ParamInfo, value: Value) -> None:

@@ -22,8 +22,6 @@ from defusedxml.expatreader import DefusedExpatParser
 from . import rich
 from .decode import as_xml, bytes_of, text_of, with_entities
 from .steps import (
-    MORE_FAULTS,
-    MOST_FAULTS,
     Fault,
     Gap,
     Param,
@@ -31,6 +29,7 @@ from .steps import (
     ScriptError,
     Step,
     Value,
+    add_fault,
     quoted,
     shortened,
 )
@@ -180,12 +179,10 @@ class _Reader(ContentHandler, LexicalHandler):
 
     def add(self, text: str, param: str = "", in_step: bool = False) -> None:
         """Add a fault of the script, of the step that is open, or of its parameter."""
-        if len(self.faults) == MOST_FAULTS:
-            self.faults.append(MORE_FAULTS)
-            raise _EnoughError
         step = self._steps[-1].filter if in_step else ""
         number = len(self._steps) if in_step else 0
-        self.faults.append(Fault(text, number, shortened(step), shortened(param)))
+        if not add_fault(self.faults, Fault(text, number, shortened(step), shortened(param))):
+            raise _EnoughError
 
     def result(self) -> Reading:
         """What has been read so far; the last step may not have ended."""

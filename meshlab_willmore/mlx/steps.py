@@ -80,6 +80,13 @@ MOST_FAULTS = 100
 MORE_FAULTS = Fault(f"has more than {MOST_FAULTS} faults; these are the first")
 
 
+def add_fault(faults: list[Fault], fault: Fault) -> bool:
+    """Add a fault to a list, or `MORE_FAULTS` to one that is full; return whether it was added."""
+    is_full = len(faults) >= MOST_FAULTS
+    faults.append(MORE_FAULTS if is_full else fault)
+    return not is_full
+
+
 class ScriptWarning(NamedTuple):
     """What one should know of a step that can be run.
 

@@ -333,6 +333,13 @@ def test_faults_of_both_kinds_are_cut_short_together():
     assert faults[100] == Fault("has more than 100 faults; these are the first")
 
 
+def test_faults_of_reading_alone_are_cut_short_too():
+    body = step(TAUBIN) + "<a/>" * 150
+    faults = examine(reading_of(f"<FilterScript>{body}</FilterScript>".encode(), "s")).faults
+    assert len(faults) == 101
+    assert faults[100] == Fault("has more than 100 faults; these are the first")
+
+
 def test_a_parameter_without_a_type_takes_the_filters_own():
     body = (
         "<filter name='Transform: Rotate'><Param name='angle' value='90'/>"

@@ -45,6 +45,8 @@ def test_a_copy_has_a_name_and_globals_of_its_own():
     copies = [compiled.specialised(greedy.advance, energy) for energy in (area, virtual)]
     assert [copy.__qualname__ for copy in copies] == ["advance_area", "advance_virtual"]
     assert [copy.__globals__["energy"] for copy in copies] == [area, virtual]
+    judged = compiled.specialised(greedy.advance, virtual, willmore)
+    assert judged.__qualname__ == "advance_virtual_willmore"
     assert greedy.energy is willmore
     assert all(copy.__code__ is greedy.advance.__code__ for copy in copies)
 

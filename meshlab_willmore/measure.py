@@ -25,8 +25,9 @@ from .mesh.validate import check_mesh, in_input_units, to_unit_scale
 FULL_TURN = 2.0 * math.pi
 # Faces of one call of a kernel, which no interrupt ends.
 FACES_PER_CALL = 20_000
-# Half-edges of one sum of angles; a constant of its own, as a kernel reads it.
+# Half-edges, and faces, of one sum; constants of their own, as kernels read them.
 HALF_EDGES_PER_SUM = 2048
+FACES_PER_SUM = 1024
 # Angles that are multiplied as complex numbers before these get too small.
 MOST_PRODUCTS = 64
 
@@ -227,6 +228,60 @@ def willmore_energy_of(mesh):
     energy = float(math.pi * half_turns + task.rest.sum())
     # Undefined angles leave out single vertices.
     return energy if math.isfinite(energy) else float(_vertex_energy(mesh).sum())
+
+
+class Quality(NamedTuple):
+    """What flips are judged by, beside the Willmore energy.
+
+    Attributes
+    ----------
+    absolute_mean_curvature : float
+        As in `Measures`.
+    mean_shape, worst_shape : float
+        Mean and least of `triangle_shapes`; 1 without faces.
+    """
+
+    absolute_mean_curvature: float
+    mean_shape: float
+    worst_shape: float
+
+
+def quality_of(mesh):
+    """Return the Quality of a half-edge mesh, in its own units."""
+    faces = len(mesh.origin) // 3
+    if not faces:
+        return Quality(0.0, 1.0, 1.0)
+    chunks = -(-faces // FACES_PER_SUM)
+    task = _QualityParts(mesh, np.zeros(chunks), np.zeros(chunks), np.ones(chunks))
+    with thread_pool() as parallel_for:
+        parallel_for(_add_quality, task, faces, FACES_PER_SUM)
+    shapes = math.fsum(task.shapes) / faces
+    return Quality(float(task.bends.sum()), shapes, float(task.worst.min()))
+
+
+class _QualityParts(NamedTuple):
+    """A mesh, and for each chunk of its faces the sums and the least of what they add."""
+
+    mesh: Mesh
+    bends: np.ndarray
+    shapes: np.ndarray
+    worst: np.ndarray
+
+
+@jit
+def _add_quality(task, start, stop):
+    """Add up what the faces from `start` up to `stop` have."""
+    mesh, bends, shapes, worst = task.mesh, 0.0, 0.0, 1.0
+    for f in range(start, stop):
+        a, b, c = corners(mesh, f)
+        shape = triangle_shape(a, b, c)
+        shapes += shape
+        worst = min(worst, shape)
+        for h in range(3 * f, 3 * f + 3):
+            if h < mesh.twin[at(h)]:
+                bends += mean_curvature.bend(mesh, h)
+    chunk = start // FACES_PER_SUM
+    task.bends[chunk], task.shapes[chunk], task.worst[chunk] = bends, shapes, worst
 
 
 def _unit_mesh(vertices, faces):

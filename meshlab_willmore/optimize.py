@@ -1,5 +1,6 @@
 """Edge flips that lower an energy, on plain arrays: the package's main function."""
 
+import functools
 import math
 from collections.abc import Callable
 from typing import NamedTuple
@@ -9,7 +10,7 @@ import numpy as np
 from . import guards, options
 from .energy.table import AT, ENERGIES
 from .guards.bvh import build_bvh, inactive_bvh
-from .measure import willmore_energy_of
+from .measure import quality_of, willmore_energy_of
 from .mesh.build import build, changed_edges, in_old_slots, local_order
 from .mesh.halfedge import lengths_of_sides
 from .mesh.validate import (
@@ -20,6 +21,7 @@ from .mesh.validate import (
     in_input_units,
     to_unit_scale,
 )
+from .passes import check_combination, planned
 from .search import annealing, greedy, multistart, parallel_greedy, variable_depth
 from .search.compiled import KERNELS, PLACED_KERNELS
 from .search.rules import CONVERGED, NO_LIMIT, ChainLimits, Rules, Schedule, Settings
@@ -64,6 +66,28 @@ SEARCHES = {
 }
 
 
+class PassResult(NamedTuple):
+    """What one pass of `optimize_flips` did.
+
+    Attributes
+    ----------
+    energy, search : str
+        What it lowered, and how.
+    flips : int
+        Number of flips; with "annealing" random ones, those that went back and forth included.
+    gain : float
+        How much this energy fell, as in a `FlipResult` of one pass.
+    converged : bool
+        Whether no allowed flip lowered this energy any more.
+    """
+
+    energy: str
+    search: str
+    flips: int
+    gain: float
+    converged: bool
+
+
 class FlipResult(NamedTuple):
     """Result of `optimize_flips`.
 
@@ -75,7 +99,8 @@ class FlipResult(NamedTuple):
         Number of flips, without those that the search took back. With "annealing", whose random
         flips go back and forth, the number of edges that the input did not have.
     gain : float
-        How much the chosen energy fell, in its unit: radians; the unit of the coordinates times
+        With several passes, how much the Willmore energy fell; else how much the chosen energy
+        fell, in its unit: radians; the unit of the coordinates times
         radians for "mean curvature", its square for "area", none for "delaunay". The energy
         "virtual willmore" is not a function of the mesh. For it, the gain is the sum of the cost
         reductions with the greedy searches and "variable depth" (which judges chains by the
@@ -88,20 +113,33 @@ class FlipResult(NamedTuple):
         Willmore energy leaves out the share of the edges at boundary vertices, and can rise.
     converged : bool
         Whether no allowed flip lowers the energy any more (with "variable depth": no allowed chain
-        of flips). Flips are forbidden by the connectivity, by locks and guards and, with "virtual
-        willmore", by the option `monotone`: if True, flips that raise the Willmore energy, if
-        False, flips to an edge that was flipped away before. So other flips may be left that lower
-        the energy. A second run from the result makes no flip, except: with `monotone` False; with
-        "annealing" and "thorough", which may find more; with "variable depth" where the next flips
-        of a chain tie, as their order, which then decides, depends on that of the faces; with
-        `featuredeg`, as creases are found in the input; and where flips that keep the Willmore
-        energy go in circles, which the search stops after ten rounds.
+        of flips), in each pass when it ended. Flips are forbidden by the connectivity, by locks and
+        guards and, with "virtual willmore", by the option `monotone`: if True, flips that raise the
+        Willmore energy, if False, flips to an edge that was flipped away before. So other flips may
+        be left that lower the energy. A second run from the result makes no flip, except: with
+        `monotone` False; with "annealing" and "thorough", which may find more; with "variable
+        depth" where the next flips of a chain tie, as their order, which then decides, depends on
+        that of the faces; with `featuredeg` and `maxdeviation`, as creases are found in the input,
+        and deviations are counted from it; with several passes, as each undoes flips of another;
+        and where flips that keep the Willmore energy go in circles, which the search stops after
+        ten rounds.
     reason : str
         Why it stopped.
     corners : (m, 3) int32
         For each corner of the new faces a corner ``3 f + c`` of the old ones at the same vertex and
         on the same side of all locked edges. So ``wedge_data.reshape(3 * m, -1)[corners]`` carries
         data of the old corners over.
+    deviation : float
+        No point of the result is farther than this from the input, and no point of the input from
+        the result, in units of the coordinates: an upper bound of the Hausdorff distance, of which
+        `meshlab_willmore.guards.deviation` has the proof.
+    absolute_mean_curvature_before, absolute_mean_curvature_after : float
+        Sum of dihedral angle times length over the interior edges, in units of the coordinates
+        times radians.
+    mean_shape_before, mean_shape_after, worst_shape_before, worst_shape_after : float
+        Mean and least of the shapes of all triangles: 1 if equilateral, 0 without area.
+    passes : tuple of PassResult
+        What each pass did, in order.
     """
 
     faces: np.ndarray
@@ -112,6 +150,14 @@ class FlipResult(NamedTuple):
     converged: bool
     reason: str
     corners: np.ndarray
+    deviation: float
+    absolute_mean_curvature_before: float
+    absolute_mean_curvature_after: float
+    mean_shape_before: float
+    mean_shape_after: float
+    worst_shape_before: float
+    worst_shape_after: float
+    passes: tuple[PassResult, ...]
 
 
 class _Locks(NamedTuple):
@@ -123,10 +169,24 @@ class _Locks(NamedTuple):
     wedge_uv: np.ndarray | None
 
 
+def _checked_combination(function):
+    """Let a function refuse options that its preset or passes decide, if they are given at all."""
+
+    @functools.wraps(function)
+    def checked(*arrays, **given):
+        check_combination(given)
+        return function(*arrays, **given)
+
+    return checked
+
+
+@_checked_combination
 def optimize_flips(
     vertices,
     faces,
     *,
+    preset=options.PRESET.default,
+    passes=None,
     energy=options.ENERGY.default,
     search=options.SEARCH.default,
     depth=options.DEPTH.default,
@@ -136,6 +196,8 @@ def optimize_flips(
     virtualpoint=options.VIRTUALPOINT.default,
     monotone=options.MONOTONE.default,
     foldangle=options.FOLDANGLE.default,
+    minshape=options.MINSHAPE.default,
+    maxdeviation=None,
     checkintersections=options.CHECKINTERSECTIONS.default,
     featuredeg=options.FEATUREDEG.default,
     selected_faces=None,
@@ -156,6 +218,24 @@ def optimize_flips(
         Coordinates. Those below 5e-23 of the largest one count as 0.
     faces : (m, 3) array_like of int
         Vertex indices of each face.
+    preset : {"paper", "faithful", "smooth", "shape"}
+        What to aim at.
+
+        - "paper": the paper's method, or whatever the other options say.
+        - "faithful": the true shape of the surface, and then good triangles. Flips lower "mean
+          curvature", which finds creases and smooth parts back, and then "delaunay" without moving
+          the surface by more than `maxdeviation`, 0.03 % of the bounding box's diagonal by default.
+        - "smooth": the lowest Willmore energy.
+        - "shape": the best triangles within `maxdeviation` of the input, with the same default.
+
+        All but the first decide the options that choose and guide a search (`energy`, `search`,
+        `depth`, `breadth`, `sweeps`, `seed`, `virtualpoint`, `monotone`); to give one of these
+        beside them is an error. The other options are for all passes of the preset.
+    passes : list of dict, optional
+        Passes of your own, one after the other, in place of a preset. Each has options of this
+        function: ``[dict(energy="mean curvature"), dict(energy="delaunay", maxdeviation=0.1)]``.
+        What a pass leaves out has the default; `foldangle`, `minshape`, `maxdeviation`,
+        `checkintersections` and `maxflips` given beside `passes` are for all of them.
     energy : str
         What to minimise.
 
@@ -212,8 +292,18 @@ def optimize_flips(
         energies, which need no rule.
     foldangle : float
         Degrees in [0, 180]. Refuse flips to an edge with a larger dihedral angle (0 is flat) than
-        this and than the old edge, and flips to a sliver (shape below 0.05 and below the worse old
-        one). 180: allow all.
+        this and than the old edge. 180: allow all.
+    minshape : float
+        In [0, 1]. Refuse flips to a triangle of a lower shape than this and than the worse old one.
+        The shape is 4 sqrt(3) area / (sum of the squared sides), 1 for an equilateral triangle. 0:
+        allow all.
+    maxdeviation : float, optional
+        In units of the coordinates. Refuse flips after which a point of the surface could be
+        farther from the input than this, or a point of the input from the surface. Each flip counts
+        with the distance between the old and the new diagonal, and what it adds to a face is
+        summed up (see `meshlab_willmore.guards.deviation`). Rounding may add 1e-12 of the largest
+        coordinate. In `passes`, a limit that a pass has itself is counted from the beginning of
+        that pass, one for all passes from the input.
     checkintersections : bool
         Refuse flips after which one of the two new faces intersects another face of the mesh:
         touches it without a common vertex, or has more in common with it than common vertices.
@@ -237,9 +327,9 @@ def optimize_flips(
         one point, are flipped among themselves; faces with a coordinate that is not finite stay.
         The coordinates of the new faces are ``wedge_uv.reshape(-1, 2)[result.corners]``.
     maxflips : int, optional
-        Stop after so many flips, or before a chain that would exceed them. With "annealing" all
-        random flips count. Every search begins with greedy flips, and ends with them if the limit
-        is reached there.
+        Stop after so many flips, of all passes, or before a chain that would exceed them. With
+        "annealing" all random flips count. Every search begins with greedy flips, and ends with
+        them if the limit is reached there.
 
     Returns
     -------
@@ -251,8 +341,8 @@ def optimize_flips(
     TypeError
         If arrays or options have a wrong type.
     ValueError
-        If shapes, ranges or names are wrong, coordinates are not finite, a face has a repeated
-        vertex, or a locked pair is no edge.
+        If shapes, ranges or names are wrong, options contradict each other, coordinates are not
+        finite, a face has a repeated vertex, or a locked pair is no edge.
 
     Notes
     -----
@@ -263,58 +353,106 @@ def optimize_flips(
     >>> result = optimize_flips(vertices, faces, energy="willmore")  # doctest: +SKIP
     >>> result.willmore_before - result.willmore_after  # doctest: +SKIP
     """
-    search = options.SEARCH.checked(search)
-    energy = options.ENERGY.checked(energy)
+    preset = options.PRESET.checked(preset)
     vertices, faces = check_mesh(vertices, faces)
-    place = options.VIRTUALPOINT.checked(virtualpoint)
-    rules = _rules(monotone, foldangle, maxflips)
-    if not isinstance(place, str):
-        rules, place = rules._replace(virtualpoint=place), AT
-    limits = ChainLimits(options.DEPTH.checked(depth), options.BREADTH.checked(breadth))
-    schedule = Schedule(options.SWEEPS.checked(sweeps), options.SEED.checked(seed))
+    given = {
+        "energy": energy,
+        "search": search,
+        "depth": depth,
+        "breadth": breadth,
+        "sweeps": sweeps,
+        "seed": seed,
+        "virtualpoint": virtualpoint,
+        "monotone": monotone,
+        "foldangle": foldangle,
+        "minshape": minshape,
+        "maxdeviation": maxdeviation,
+        "checkintersections": checkintersections,
+        "maxflips": maxflips,
+    }
+    plan = planned(preset, passes, given, _diagonal(vertices))
     locks = _Locks(
         options.FEATUREDEG.checked(featuredeg),
         None if selected_faces is None else check_mask(selected_faces, len(faces)),
         None if locked_edges is None else check_edges(locked_edges),
         None if wedge_uv is None else check_wedge_uv(wedge_uv, len(faces)),
     )
-    is_guarded = options.CHECKINTERSECTIONS.checked(checkintersections)
     scaled, exponent = to_unit_scale(vertices, faces)
     order = local_order(faces, len(vertices))
     mesh = build(scaled, faces[order])
     mesh = _locked(mesh, locks, order)
-    before = willmore_energy_of(mesh)
-    row = ENERGIES[energy]
-    kernels = PLACED_KERNELS[place] if energy == "virtual willmore" else KERNELS[energy]
-    rules = _suited(rules, row, mesh)
-    bvh = build_bvh(mesh, exponent) if is_guarded else inactive_bvh()
-    chosen = SEARCHES[search]
-    warm_starts = tuple(
-        (KERNELS[name], _suited(rules, ENERGIES[name], mesh)) for name in chosen.warm_starts
-    )
-    progress = chosen.run(kernels, mesh, rules, bvh, Settings(limits, schedule, warm_starts))
-    converged = progress.state == CONVERGED
+    before, quality = willmore_energy_of(mesh), quality_of(mesh)
+    limit = options.MAXFLIPS.checked(maxflips)
+    left = NO_LIMIT if limit is None else min(limit, NO_LIMIT)
+    done, deviation = [], 0.0
+    for one in plan:
+        if one.counts_anew:
+            deviation += mesh.deviation.max(initial=0.0)
+            mesh.deviation[:] = 0.0
+        done.append(_run(one, mesh, exponent, left))
+        left -= done[-1].flips
+    deviation += mesh.deviation.max(initial=0.0)
     new_faces, corners = in_old_slots(mesh, order)
+    after, quality_after = willmore_energy_of(mesh), quality_of(mesh)
+    converged = all(one.converged for one in done)
+    is_random = any(SEARCHES[one.search].is_random for one in done)
     return FlipResult(
         faces=new_faces,
-        flips=changed_edges(faces, new_faces) if chosen.is_random else progress.flips,
-        gain=in_input_units(progress.gain, exponent * row.length_power),
+        flips=changed_edges(faces, new_faces) if is_random else sum(one.flips for one in done),
+        gain=done[0].gain if len(done) == 1 else before - after,
         willmore_before=before,
-        willmore_after=willmore_energy_of(mesh),
+        willmore_after=after,
         converged=converged,
-        reason=chosen.converged if converged else STOPPED_REASON,
+        reason=SEARCHES[done[-1].search].converged if converged else STOPPED_REASON,
         corners=corners,
+        deviation=in_input_units(deviation, exponent),
+        absolute_mean_curvature_before=in_input_units(quality.absolute_mean_curvature, exponent),
+        absolute_mean_curvature_after=in_input_units(
+            quality_after.absolute_mean_curvature, exponent
+        ),
+        mean_shape_before=quality.mean_shape,
+        mean_shape_after=quality_after.mean_shape,
+        worst_shape_before=quality.worst_shape,
+        worst_shape_after=quality_after.worst_shape,
+        passes=tuple(done),
     )
 
 
-def _rules(monotone, foldangle, maxflips):
-    """Check the options of the search and return them as its rules."""
-    limit = options.MAXFLIPS.checked(maxflips)
-    return Rules(
-        fold=guards.fold_limits(options.FOLDANGLE.checked(foldangle)),
-        monotone=options.MONOTONE.checked(monotone),
-        maxflips=NO_LIMIT if limit is None else min(limit, NO_LIMIT),
+def _run(one, mesh, exponent, left):
+    """Make the flips of one pass, at most `left`, in place; return its PassResult."""
+    rules = Rules(
+        fold=guards.fold_limits(one.foldangle, one.minshape),
+        monotone=one.monotone,
+        maxflips=left if one.maxflips is None else min(left, one.maxflips),
+        maxdeviation=_at_unit_scale(one.maxdeviation, exponent),
     )
+    place = one.virtualpoint
+    if not isinstance(place, str):
+        rules, place = rules._replace(virtualpoint=place), AT
+    row = ENERGIES[one.energy]
+    kernels = PLACED_KERNELS[place] if one.energy == "virtual willmore" else KERNELS[one.energy]
+    rules = _suited(rules, row, mesh)
+    search = SEARCHES[one.search]
+    warm_starts = tuple(
+        (KERNELS[name], _suited(rules, ENERGIES[name], mesh)) for name in search.warm_starts
+    )
+    limits, schedule = ChainLimits(one.depth, one.breadth), Schedule(one.sweeps, one.seed)
+    bvh = build_bvh(mesh, exponent) if one.checkintersections else inactive_bvh()
+    progress = search.run(kernels, mesh, rules, bvh, Settings(limits, schedule, warm_starts))
+    gain = in_input_units(progress.gain, exponent * row.length_power)
+    return PassResult(one.energy, one.search, progress.flips, gain, progress.state == CONVERGED)
+
+
+def _at_unit_scale(length, exponent):
+    return math.inf if length is None else in_input_units(length, -exponent)
+
+
+def _diagonal(vertices):
+    """Return the diagonal of the bounding box, infinite if it is no float."""
+    if not len(vertices):
+        return 0.0
+    with np.errstate(over="ignore"):
+        return float(math.hypot(*np.ptp(vertices, axis=0)))
 
 
 def _suited(rules, row, mesh):

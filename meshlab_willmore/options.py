@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .energy.table import ENERGIES, VIRTUAL_POINTS
+from .presets import FULL_DIAGONAL, PRESETS
 
 # The filter whose parameters these are.
 FILTER = "meshing_edge_flip_by_willmore_optimization"
@@ -34,6 +35,10 @@ SEARCHES = {
 }
 
 
+class Length(float):
+    """A length in units of the coordinates; the filter takes percentages of a diagonal, too."""
+
+
 class Option(NamedTuple):
     """An option of the flips.
 
@@ -42,9 +47,10 @@ class Option(NamedTuple):
     name : str
         The keyword: lower case, without underscores.
     type : type
-        bool, int, float, or str: a choice, or what can be a text as well as a number.
+        bool, int, float, `Length`, or str: a choice, or what can be a text as well as a number.
     default : object
-        That of the filter; None: it depends on the mesh.
+        That of the filter; None: it depends on the mesh. Of a `Length`, in percent of the bounding
+        box's diagonal.
     label : str
         What MeshLab would write beside the field.
     help : str
@@ -140,6 +146,22 @@ def _real(option: Option, value: Any, expected: str) -> float:
     return float(value)
 
 
+def _share(option: Option, value: Any) -> float:
+    share = _real(option, value, "a number")
+    if not 0.0 <= share <= 1.0:
+        raise ValueError(f"{option.name} must lie in 0 .. 1, not {share}")
+    return share
+
+
+def _length(option: Option, value: Any) -> float | None:
+    if value is None:
+        return None
+    length = _real(option, value, "a length or None")
+    if not length >= 0.0:
+        raise ValueError(f"{option.name} must be a length of 0 or more, not {length}")
+    return length
+
+
 def _listed(option: Option) -> str:
     return ", ".join(map(repr, option.choices))
 
@@ -152,6 +174,16 @@ def described(choices: Mapping[str, str]) -> str:
     return " ".join(f"{name!r}: {text}." for name, text in choices.items())
 
 
+PRESET = Option(
+    "preset",
+    str,
+    next(iter(PRESETS)),
+    "Preset",
+    "What to aim at. " + described({name: row.help for name, row in PRESETS.items()}) + " All but "
+    "the first choose energy and search themselves.",
+    _choice,
+    tuple(PRESETS),
+)
 SELECTION = Option(
     "selection",
     bool,
@@ -248,8 +280,28 @@ FOLDANGLE = Option(
     90.0,
     "Fold angle (deg)",
     "Refuse a flip if the faces at the new edge would be bent by more than this angle (0 is flat) "
-    "and by more than at the old edge, or if it makes a sliver. 180 allows folds.",
+    "and by more than at the old edge. 180 allows folds.",
     _degrees,
+)
+MINSHAPE = Option(
+    "minshape",
+    float,
+    0.05,
+    "Least shape",
+    "Refuse a flip if the worse of its two triangles would have a shape below this one and below "
+    "the worse one before. The shape is 1 for an equilateral triangle and 0 for one without area. "
+    "0 allows slivers.",
+    _share,
+)
+MAXDEVIATION = Option(
+    "maxdeviation",
+    Length,
+    FULL_DIAGONAL,
+    "Largest deviation",
+    "Refuse a flip if the surface could be farther from the input than this anywhere, in either "
+    "direction. The whole diagonal of the bounding box, 100%, is no limit. The presets 'faithful' "
+    "and 'shape' have 0.03% by themselves.",
+    _length,
 )
 CHECKINTERSECTIONS = Option(
     "checkintersections",
@@ -290,6 +342,7 @@ ALLOWLOSS = Option(
 
 # Those of the filter, in the order of its parameters.
 OPTIONS = (
+    PRESET,
     SELECTION,
     ENERGY,
     SEARCH,
@@ -300,8 +353,12 @@ OPTIONS = (
     VIRTUALPOINT,
     MONOTONE,
     FOLDANGLE,
+    MINSHAPE,
+    MAXDEVIATION,
     CHECKINTERSECTIONS,
     FEATUREDEG,
     MAXFLIPS,
     ALLOWLOSS,
 )
+
+BY_NAME = {option.name: option for option in OPTIONS}

@@ -13,7 +13,9 @@ from meshlab_willmore.options import (
     ALLOWLOSS,
     ENERGY,
     FOLDANGLE,
+    MAXDEVIATION,
     MAXFLIPS,
+    MINSHAPE,
     MONOTONE,
     OPTIONS,
     SEARCH,
@@ -59,6 +61,24 @@ def test_limits_and_flags():
             MONOTONE.checked(wrong)
 
 
+def test_a_shape_is_a_share():
+    assert MINSHAPE.checked(np.float32(0.5)) == 0.5
+    for wrong in (-0.1, 1.1, np.nan):
+        with pytest.raises(ValueError, match=r"minshape must lie in 0 .. 1, not"):
+            MINSHAPE.checked(wrong)
+    with pytest.raises(TypeError, match="minshape must be a number, not str"):
+        MINSHAPE.checked("0.5")
+
+
+def test_a_deviation_is_a_length():
+    assert [MAXDEVIATION.checked(value) for value in (None, 0, np.inf)] == [None, 0.0, np.inf]
+    for wrong in (-1e-9, np.nan):
+        with pytest.raises(ValueError, match="maxdeviation must be a length of 0 or more, not"):
+            MAXDEVIATION.checked(wrong)
+    with pytest.raises(TypeError, match="maxdeviation must be a length or None, not str"):
+        MAXDEVIATION.checked("3%")
+
+
 def test_virtual_points_are_at_a_name_or_inside_the_edge():
     assert [VIRTUALPOINT.checked(value) for value in ("closest", 0.25)] == ["closest", 0.25]
     for wrong in (0.0, 1.0, np.nan, "0.5"):
@@ -69,7 +89,11 @@ def test_virtual_points_are_at_a_name_or_inside_the_edge():
 
 
 def test_only_energy_and_search_are_nothing_but_a_choice():
-    assert [option.name for option in OPTIONS if option.is_choice] == ["energy", "search"]
+    assert [option.name for option in OPTIONS if option.is_choice] == [
+        "preset",
+        "energy",
+        "search",
+    ]
     with pytest.raises(ValueError, match="unknown search 'quick'; choose one of 'parallel greedy'"):
         SEARCH.checked("quick")
 
@@ -103,10 +127,11 @@ def test_a_chain_has_room_for_the_greatest_breadth():
 
 def test_the_function_has_the_same_names_and_defaults():
     found = inspect.signature(optimize_flips).parameters
-    arrays = {"vertices", "faces", "selected_faces", "locked_edges", "wedge_uv"}
+    arrays = {"vertices", "faces", "selected_faces", "locked_edges", "wedge_uv", "passes"}
     assert set(found) - arrays == set(CORE)
     for name, option in CORE.items():
-        assert found[name].default == (None if option is MAXFLIPS else option.default)
+        is_limit = option in (MAXFLIPS, MAXDEVIATION)
+        assert found[name].default == (None if is_limit else option.default)
 
 
 def test_the_docstring_of_the_function_names_options_and_choices_that_there_are():
@@ -138,6 +163,8 @@ def described_energies(energies):
 
 
 def shown(option):
+    if option is MAXDEVIATION:
+        return "100%"
     if option.type in (int, float):
         return f"{option.default:g}"
     return f"`{option.default!r}`"

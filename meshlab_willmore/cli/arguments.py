@@ -13,7 +13,7 @@ from typing import Any
 
 import click
 
-from ..options import FILTER, OPTIONS, Option
+from ..options import FILTER, OPTIONS, Length, Option
 from .errors import WrongUse, reason
 from .formats import MANNERS, PARTS
 from .paths import Output, is_script
@@ -74,7 +74,29 @@ def _click_option(option: Option) -> Callable[..., Any]:
     if option.type is bool:
         return click.option(f"{name}/--no-{option.name}", default=None, help=_help(option))
     type_: Any = click.Choice(option.choices) if option.is_choice else option.type
+    if option.type is Length:
+        type_ = _Length()
     return click.option(name, type=type_, help=_help(option))
+
+
+class _Length(click.ParamType):
+    """A length, or a percentage of the bounding box's diagonal with its sign."""
+
+    name = "LENGTH|PERCENT%"
+
+    def convert(self, value: Any, param: Any, ctx: Any) -> Any:
+        import pymeshlab
+
+        from ..mlx.rich import parse_share
+        from ..mlx.steps import Percentage
+
+        try:
+            share = parse_share(value)
+        except ValueError as error:
+            self.fail(f"{value!r} {error}", param, ctx)
+        if isinstance(share, Percentage):
+            return pymeshlab.PercentageValue(share.percent)
+        return pymeshlab.PureValue(share)
 
 
 def _help(option: Option) -> str:
@@ -85,6 +107,8 @@ def _help(option: Option) -> str:
         value = option.name if value else f"no-{option.name}"
     elif option.type is float:
         value = f"{value:g}"
+    elif option.type is Length:
+        value = f"{value:g}%"
     return f"{option.help}  [default: {value}]"
 
 

@@ -62,13 +62,19 @@ def cost_reduction(mesh, h):
     return drop_of(before, after)
 
 
+@inner
+def bend(mesh, h):
+    """Return the dihedral angle times the length of `h`, which has a twin."""
+    i, j, k, l = diamond(mesh, h)
+    angle = angle_between(good_direction(i, j, k), good_direction(j, i, l))
+    return angle * norm(subtract(j, i))
+
+
 @jit
 def total(mesh):
     """Return the total absolute mean curvature, in units of the coordinates times radians."""
     bends = 0.0
     for h in range(len(mesh.origin)):
         if h < mesh.twin[h]:
-            i, j, k, l = diamond(mesh, h)
-            bend = angle_between(good_direction(i, j, k), good_direction(j, i, l))
-            bends += bend * norm(subtract(j, i))
+            bends += bend(mesh, h)
     return bends

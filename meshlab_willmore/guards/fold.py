@@ -13,6 +13,7 @@ from .texture import inverts_texture
 
 FLAT_ANGLE = 180.0
 RIGHT_ANGLE = 0.5 * math.pi
+SLIVER = 0.05
 SHAPE_OF_EQUILATERAL = 2.0 * math.sqrt(3.0)
 
 
@@ -22,7 +23,7 @@ class FoldLimits(NamedTuple):
     Attributes
     ----------
     active : bool
-        Whether any fold of the surface is refused.
+        Whether any fold of the surface is refused, or any sliver.
     angle : float
         Dihedral angle in radians, 0 between coplanar faces, that a new edge may always have.
     slack : float
@@ -34,12 +35,21 @@ class FoldLimits(NamedTuple):
     active: bool
     angle: float
     slack: float = 1e-9
-    shape: float = 0.05
+    shape: float = SLIVER
 
 
-def fold_limits(foldangle):
-    """Return the limits for a largest dihedral angle in degrees; 180 allows the surface to fold."""
-    return FoldLimits(foldangle < FLAT_ANGLE, math.radians(foldangle))
+def fold_limits(foldangle, minshape=SLIVER):
+    """Return the limits of a flip.
+
+    Parameters
+    ----------
+    foldangle : float
+        Largest dihedral angle in degrees; 180 allows the surface to fold.
+    minshape : float
+        Least triangle shape; 0 allows slivers.
+    """
+    is_active = foldangle < FLAT_ANGLE or minshape > 0.0
+    return FoldLimits(is_active, math.radians(foldangle), shape=minshape)
 
 
 @inner

@@ -268,6 +268,7 @@ def build(vertices, faces):
             corner=np.arange(faces.size, dtype=np.int32),
             several_fans=np.zeros(count, np.bool_),
             uv=np.empty((0, 0)),
+            deviation=np.zeros(len(faces)),
         )
         fans = _Fans(mesh, np.zeros(count, np.int32), np.full(count, NONE, np.int32))
         _count_corners(fans)

@@ -54,6 +54,9 @@ class Mesh(NamedTuple):
     uv : (3 m, 2 c) float64
         Texture coordinates of the corners of the input faces in each of c mappings, never changed;
         empty without any.
+    deviation : (m,) float64
+        Bound of the distance between each face and the input, which searches keep up to date (see
+        `meshlab_willmore.guards.deviation`).
     """
 
     vertices: np.ndarray
@@ -63,6 +66,7 @@ class Mesh(NamedTuple):
     corner: np.ndarray
     several_fans: np.ndarray
     uv: np.ndarray
+    deviation: np.ndarray
 
 
 class Diamond(NamedTuple):

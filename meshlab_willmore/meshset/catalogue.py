@@ -17,6 +17,7 @@ from typing import Any
 
 import pymeshlab
 
+from ..mlx.steps import Percentage
 from . import document, filter_info, old_names
 from .document import DocumentStep
 from .filter import Filter
@@ -26,7 +27,13 @@ from .filters import BY_NAME, FILTERS
 _FILE = Path(__file__).with_name("native_filters.json")
 _RENAMED = Path(pymeshlab.__file__).with_name("keys.txt")
 _MANUAL = "https://pymeshlab.readthedocs.io/en/{version}/filter_list.html#{name}"
-_TYPES = {bool: "RichBool", int: "RichInt", float: "RichFloat", str: "RichString"}
+_TYPES = {
+    bool: "RichBool",
+    int: "RichInt",
+    float: "RichFloat",
+    str: "RichString",
+    Percentage: "RichAbsPerc",
+}
 # All filters of this name, and few others, work on an empty set.
 _MAKES_MESHES = "create_"
 _MOST_SUGGESTIONS = 3

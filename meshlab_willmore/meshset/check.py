@@ -237,6 +237,8 @@ class _Checker:
         call = Call(number, known, {}, {})
         for item, own in self._params(known, migration, gap):
             self._take(call, item, own)
+        if known.is_willmore:
+            self._check_barred(call)
         self._may_be_more = self._may_be_more or known.makes_layers
         self._left -= known.name == _DELETE
         self._checked.append((number, step, call))
@@ -255,6 +257,20 @@ class _Checker:
         if own.type != "RichShotf":
             call.given[own.keyword] = value
             call.details[own.keyword] = item.param.details
+
+    def _check_barred(self, call: Call) -> None:
+        """Take out what can't be given beside other parameters; a fault, but for defaults.
+
+        Scripts that programs write have all parameters, whether somebody has set them or not.
+        """
+        filter_ = BY_NAME[call.known.name]
+        barred = filter_.barred(call.given)
+        for parameter in filter_.parameters:
+            name = parameter.name
+            if name in barred and name in call.given:
+                if call.given[name] != parameter.default_for(None, {}):
+                    self._add(barred[name], name)
+                del call.given[name], call.details[name]
 
     def _params(
         self, known: FilterInfo, migration: Migration, gap: Gap

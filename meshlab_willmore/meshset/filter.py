@@ -5,12 +5,13 @@ from __future__ import annotations
 import sys
 import threading
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 import pymeshlab
 from pymeshlab import MeshSet
 
+from ..mlx.steps import Percentage
 from . import native
 from .parameters import Parameter, read_all
 
@@ -35,6 +36,9 @@ class Filter(NamedTuple):
         Name, type and meaning of each entry of the returned dict.
     run : callable
         Gets the set and all parameter values; returns the dict and a line for the log.
+    barred : callable
+        Gets parameter values; returns the names of the parameters that can't be given beside these,
+        each with the reason.
     """
 
     name: str
@@ -44,6 +48,7 @@ class Filter(NamedTuple):
     parameters: tuple[Parameter, ...]
     returns: tuple[tuple[str, str, str], ...]
     run: Callable[[MeshSet, dict[str, Any]], tuple[dict[str, Any], str]]
+    barred: Callable[[Mapping[str, Any]], Mapping[str, str]] = lambda values: {}
 
 
 def current_surface(ms: MeshSet) -> pymeshlab.Mesh:
@@ -65,13 +70,30 @@ def values_of(ms: MeshSet, filter_: Filter, given: dict[str, Any]) -> dict[str, 
     Raises
     ------
     pymeshlab.PyMeshLabException
-        If the set has no mesh, or a keyword or a value does not fit.
+        If the set has no mesh, a keyword or a value does not fit, or two contradict each other.
     """
     if ms.mesh_number() == 0:
         raise pymeshlab.PyMeshLabException(
             f"{filter_.name} requires at least one mesh loaded in the MeshSet."
         )
-    return read_all(filter_.name, filter_.parameters, given, ms)
+    values = read_all(filter_.name, filter_.parameters, given, ms)
+    barred = filter_.barred(values)
+    for name in given:
+        if name in barred:
+            raise pymeshlab.PyMeshLabException(f"Parameter {barred[name]}.")
+    return values
+
+
+def shown_values(ms: MeshSet, values: Mapping[str, Any]) -> dict[str, Any]:
+    """The values of a call as PyMeshLab shows them: percentages as lengths."""
+    return {name: length_of(ms, value) for name, value in values.items()}
+
+
+def length_of(ms: MeshSet, value: Any) -> Any:
+    """A percentage of the current mesh's diagonal as a length; any other value as it is."""
+    if not isinstance(value, Percentage):
+        return value
+    return value.percent / 100.0 * ms.current_mesh().bounding_box().diagonal()
 
 
 def apply(ms: MeshSet, filter_: Filter, values: dict[str, Any]) -> dict[str, Any]:
@@ -89,7 +111,7 @@ def apply(ms: MeshSet, filter_: Filter, values: dict[str, Any]) -> dict[str, Any
         if verbosity.all or verbosity.parameters:
             with native.in_order():
                 print(f"\nApplying filter {filter_.name} with the following parameters:")
-                print(f"{values}\n")
+                print(f"{shown_values(ms, values)}\n")
         try:
             returned, log = _run(ms, filter_, values)
         except Exception as error:

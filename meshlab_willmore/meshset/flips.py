@@ -2,13 +2,28 @@
 
 from __future__ import annotations
 
+import math
 import time
+from collections.abc import Mapping
 from contextlib import suppress
 from typing import Any
 
+import numpy as np
 import pymeshlab
 
-from ..options import ALLOWLOSS, FILTER, OPTIONS, SELECTION, UNLIMITED, VIRTUALPOINT, Option
+from ..mlx.steps import Percentage
+from ..options import (
+    ALLOWLOSS,
+    FILTER,
+    MAXDEVIATION,
+    OPTIONS,
+    PRESET,
+    SELECTION,
+    UNLIMITED,
+    VIRTUALPOINT,
+    Option,
+)
+from ..presets import FULL_DIAGONAL, PRESETS, conflict, decided_by
 from . import edge_flags, exchange, ids, interrupts, native
 from .filter import Filter, current_surface
 from .parameters import Parameter
@@ -17,8 +32,29 @@ from .snapshot import take
 # --- parameters --------------------------------------------------------------------------------
 
 
-def _has_selected_faces(ms: pymeshlab.MeshSet | None) -> bool:
+def _has_selected_faces(ms: pymeshlab.MeshSet | None, _: Mapping[str, Any]) -> bool:
     return ms is not None and ms.current_mesh().selected_face_number() > 0
+
+
+def _preset(values: Mapping[str, Any]) -> str:
+    index = values.get(PRESET.name)
+    return PRESET.default if index is None else PRESET.choices[index]
+
+
+def _usual_deviation(_: pymeshlab.MeshSet | None, values: Mapping[str, Any]) -> Percentage:
+    return Percentage(PRESETS[_preset(values)].maxdeviation)
+
+
+def _barred(values: Mapping[str, Any]) -> dict[str, str]:
+    """The parameters that the preset decides."""
+    preset = _preset(values)
+    return {name: conflict(name, preset) for name in decided_by(preset)}
+
+
+def _deviation(value: float | Percentage) -> float | Percentage:
+    if not isinstance(value, Percentage):
+        MAXDEVIATION.checked(value)
+    return value
 
 
 def _limit(maxflips: int) -> int | None:
@@ -54,6 +90,7 @@ def _parameter(option: Option) -> Parameter:
 _CHANGES: dict[str, dict[str, Any]] = {
     "selection": {"default": _has_selected_faces},
     "virtualpoint": {"check": _place},
+    "maxdeviation": {"type": Percentage, "default": _usual_deviation, "check": _deviation},
     "maxflips": {"check": _limit},
 }
 _PARAMETERS = tuple(
@@ -75,8 +112,9 @@ def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any]
             f"The mesh has data that would be lost: {'; '.join(snapshot.unsupported)}. "
             "Nothing was changed. allowloss=True goes ahead without them."
         )
-    core = [p for p in _PARAMETERS if p.name not in (SELECTION.name, ALLOWLOSS.name)]
-    given = {p.name: p.core_value(values[p.name]) for p in core}
+    left_out = {SELECTION.name, ALLOWLOSS.name, *_barred(values)}
+    given = {p.name: p.core_value(values[p.name]) for p in _PARAMETERS if p.name not in left_out}
+    given[MAXDEVIATION.name] = _length(given[MAXDEVIATION.name], snapshot.vertices)
     with interrupts.preserved():
         result = optimize_flips(
             snapshot.vertices,
@@ -95,6 +133,13 @@ def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any]
         "gain": result.gain,
         "willmore_before": result.willmore_before,
         "willmore_after": result.willmore_after,
+        "absolute_mean_curvature_before": result.absolute_mean_curvature_before,
+        "absolute_mean_curvature_after": result.absolute_mean_curvature_after,
+        "mean_shape_before": result.mean_shape_before,
+        "mean_shape_after": result.mean_shape_after,
+        "worst_shape_before": result.worst_shape_before,
+        "worst_shape_after": result.worst_shape_after,
+        "deviation": result.deviation,
         "converged": result.converged,
         "seconds": seconds,
         "mesh_id": ids.logical_id(ms, native.id_of(native.current_mesh(ms))),
@@ -102,16 +147,41 @@ def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any]
     return returned, f"{result.flips} Willmore edge flips performed in {seconds:.2f} sec."
 
 
+def _length(limit: float | Percentage, vertices: np.ndarray) -> float | None:
+    """A limit in units of the coordinates; None for the whole diagonal, or more."""
+    diagonal = float(math.hypot(*np.ptp(vertices, axis=0)))
+    if isinstance(limit, Percentage):
+        limit = limit.percent / FULL_DIAGONAL * diagonal
+    return limit if limit < diagonal else None
+
+
 _RETURNS = (
     ("flips", "int", "Number of flips; with 'annealing', of new edges."),
     (
         "gain",
         "float",
-        "How much the energy fell, in its unit; for 'virtual willmore' the sum over the flips with "
+        "How much the energy fell, in its unit; with the presets of several passes, how much the "
+        "Willmore energy fell; for 'virtual willmore' the sum over the flips with "
         "the greedy searches and 'variable depth', else the drop of the Willmore energy.",
     ),
     ("willmore_before", "float", "Willmore energy before, over interior vertices, in radians."),
     ("willmore_after", "float", "Willmore energy after, over interior vertices, in radians."),
+    (
+        "absolute_mean_curvature_before",
+        "float",
+        "Sum of dihedral angle times length over interior edges, before.",
+    ),
+    ("absolute_mean_curvature_after", "float", "The same after."),
+    ("mean_shape_before", "float", "Mean of the triangles' shapes before; 1: all equilateral."),
+    ("mean_shape_after", "float", "The same after."),
+    ("worst_shape_before", "float", "Least of the triangles' shapes before; 0: one without area."),
+    ("worst_shape_after", "float", "The same after."),
+    (
+        "deviation",
+        "float",
+        "No point of the surface is farther than this from the surface before, nor the other way "
+        "round, in units of the coordinates.",
+    ),
     ("converged", "bool", "Whether no allowed flip lowers the energy any more."),
     ("seconds", "float", "Time spent."),
     ("mesh_id", "int", "Id of the current mesh, which the flips do not change."),
@@ -132,4 +202,5 @@ FLIPS = Filter(
     _PARAMETERS,
     _RETURNS,
     _flip,
+    _barred,
 )

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import numbers
 import operator
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import pymeshlab
+
+from ..mlx.steps import Percentage
 
 # What MeshLab can hold.
 LEAST_INT, MOST_INT = -(2**31), 2**31 - 1
@@ -25,10 +27,12 @@ class Parameter(NamedTuple):
     name : str
         The keyword: lower case, without underscores.
     type : type
-        bool, int, float, or str: an enum where there are choices, else a text.
+        bool, int, float, or str: an enum where there are choices, else a text. `Percentage`: a
+        length, or a percentage of the bounding box's diagonal.
     default : object or callable
-        The default, or a function of the mesh set, which is None where there is no mesh. (Of the
-        set, as an exception would keep a reference to the mesh.)
+        The default, or a function of the mesh set, which is None where there is no mesh, and of the
+        values of the parameters before. (Of the set, as an exception would keep a reference to the
+        mesh.)
     label, tooltip : str
         What MeshLab would write beside and over the field.
     choices : tuple of str
@@ -46,16 +50,18 @@ class Parameter(NamedTuple):
     choices: tuple[str, ...] = ()
     check: Callable[[Any], Any] | None = None
 
-    def default_for(self, ms: pymeshlab.MeshSet | None) -> Any:
+    def default_for(self, ms: pymeshlab.MeshSet | None, values: Mapping[str, Any]) -> Any:
         """The default value for the current mesh of `ms`; an enum's index."""
-        value = self.default(ms) if callable(self.default) else self.default
+        value = self.default(ms, values) if callable(self.default) else self.default
         return self.choices.index(value) if self.choices else value
 
     def shown_default(self) -> str:
         """The default without a mesh, as ``print_filter_parameter_list`` shows it."""
-        value = self.default(None) if callable(self.default) else self.default
+        value = self.default(None, {}) if callable(self.default) else self.default
         if self.type is str:
             return f"'{value}'"
+        if self.type is Percentage:
+            return f"{value.percent:g}%"
         return f"{value:g}" if self.type is float else str(value)
 
     def core_value(self, value: Any) -> Any:
@@ -63,6 +69,10 @@ class Parameter(NamedTuple):
         if self.choices:
             return self.choices[value]
         return value if self.check is None else self.check(value)
+
+    def type_name(self) -> str:
+        """The type as PyMeshLab calls it."""
+        return "PercentageValue" if self.type is Percentage else self.type.__name__
 
     def _expected(self) -> str:
         if self.type is str:
@@ -116,6 +126,15 @@ def _read_float(_: Parameter, value: Any) -> float:
     return float(value)
 
 
+def _read_share(_: Parameter, value: Any) -> float | Percentage:
+    # As in PyMeshLab, no plain number: it could be meant as either.
+    if isinstance(value, pymeshlab.PercentageValue):
+        return Percentage(value.value())
+    if isinstance(value, pymeshlab.PureValue):
+        return float(value.value())
+    raise TypeError
+
+
 def _read_str(parameter: Parameter, value: Any) -> int | str:
     return _read_enum(parameter, value) if parameter.choices else _read_text(value)
 
@@ -152,17 +171,19 @@ _READERS: dict[type, Callable[[Parameter, Any], Any]] = {
     int: _read_int,
     float: _read_float,
     str: _read_str,
+    Percentage: _read_share,
 }
 _EXPECTED = {
     bool: "a bool",
     int: "an int",
     float: "a float",
+    Percentage: "a pymeshlab.PercentageValue, or a pymeshlab.PureValue for a length,",
 }
 
 
 def read_all(
     filter_name: str,
-    parameters: Iterable[Parameter],
+    parameters: Sequence[Parameter],
     given: Mapping[str, Any],
     ms: pymeshlab.MeshSet | None,
 ) -> dict[str, Any]:
@@ -173,13 +194,18 @@ def read_all(
     pymeshlab.PyMeshLabException
         For a keyword that is no parameter, with PyMeshLab's own message.
     """
-    values = {parameter.name: parameter.default_for(ms) for parameter in parameters}
-    by_name = {parameter.name: parameter for parameter in parameters}
-    for name, value in given.items():
-        if name not in by_name:
+    names = {parameter.name for parameter in parameters}
+    for name in given:
+        if name not in names:
             raise pymeshlab.PyMeshLabException(
                 f"Parameter {name} not found for filter {filter_name}. "
                 "Please check the documentation."
             )
-        values[name] = by_name[name].read(value)
+    values: dict[str, Any] = {}
+    for parameter in parameters:
+        name = parameter.name
+        is_given = name in given
+        values[name] = (
+            parameter.read(given[name]) if is_given else parameter.default_for(ms, values)
+        )
     return values

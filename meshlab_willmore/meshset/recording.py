@@ -175,7 +175,10 @@ def _step(filter_: Filter, values: dict[str, Any]) -> Step:
     known = catalogue.find(filter_.name)
     assert known is not None
     params = []
+    barred = filter_.barred(values)
     for parameter, info in zip(filter_.parameters, known.params, strict=True):
+        if parameter.name in barred:
+            continue
         details = (("description", parameter.label), ("tooltip", parameter.tooltip))
         value = values[parameter.name]
         params.append(Param(info.name, info.type, value, with_choices(info, details)))

@@ -20,7 +20,7 @@ from pymeshlab import MeshSet
 
 from . import ids, layers, native, native_calls, recording
 from .check import resolve
-from .filter import Filter, apply, values_of
+from .filter import Filter, apply, shown_values, values_of
 from .filters import BY_NAME, FILTERS
 from .parameters import Parameter
 from .play import play
@@ -135,8 +135,8 @@ def _type(parameter: Parameter) -> str:
         names = ", ".join(map(repr, parameter.choices))
         return f"{{{names}}} or index, default {parameter.shown_default()}"
     if callable(parameter.default):
-        return f"{parameter.type.__name__}, optional"
-    return f"{parameter.type.__name__}, default {parameter.shown_default()}"
+        return f"{parameter.type_name()}, optional"
+    return f"{parameter.type_name()}, default {parameter.shown_default()}"
 
 
 # --- applying ----------------------------------------------------------------------------------
@@ -182,7 +182,7 @@ def _filter_parameter_values(
 ) -> dict[str, Any]:
     filter_ = _willmore_filter(args, "arg0", given)
     if filter_ is not None:
-        return values_of(ms, filter_, given)
+        return shown_values(ms, values_of(ms, filter_, given))
     if len(args) == 1 and ids.has_moved(ms):
         return native_calls.parameter_values(before, ms, args[0], given)
     return before(ms, *args, **given)
@@ -305,7 +305,7 @@ def _print_filter_parameter_list(before: Callable, filter_name: str) -> None:
         return
     print(f"{filter_name} filter - list of parameter names:")
     for parameter in filter_.parameters:
-        print(f"\t{parameter.name} : {parameter.type.__name__} = {parameter.shown_default()}")
+        print(f"\t{parameter.name} : {parameter.type_name()} = {parameter.shown_default()}")
     if not filter_.parameters:
         print("\tNone.")
 

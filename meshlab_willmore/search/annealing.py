@@ -31,6 +31,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..energy import willmore
+from ..guards import add_deviation
 from ..guards.bvh import Bvh, refit, refitted
 from ..mesh.halfedge import NONE, Mesh, flip, is_free
 from ..mesh.jit import inner
@@ -63,6 +64,8 @@ class AnnealingState(NamedTuple):
         The best one seen.
     journal : (s,) int32
         Half-edges flipped since the call of the kernel began.
+    before : (s, 2) float64
+        What `Mesh.deviation` was at their two faces.
     rules : Rules
     bvh : Bvh
         The guard against self-intersections, up to date with `mesh`.
@@ -71,6 +74,7 @@ class AnnealingState(NamedTuple):
     mesh: Mesh
     best: Mesh
     journal: np.ndarray
+    before: np.ndarray
     rules: Rules
     bvh: Bvh
 
@@ -91,8 +95,11 @@ def _keep_best(state, done, best):
     assign(state.best, state.mesh)
     for s in range(done - 1, best - 1, -1):
         # Four flips in a row change nothing, so three take one back.
+        h = state.journal[s]
         for _ in range(3):
-            flip(state.best, state.journal[s])
+            flip(state.best, h)
+        state.best.deviation[h // 3] = state.before[s, 0]
+        state.best.deviation[state.best.twin[h] // 3] = state.before[s, 1]
 
 
 def anneal(state, progress, draws, temperature):
@@ -130,9 +137,12 @@ def anneal(state, progress, draws, temperature):
         if flips == rules.maxflips:
             outcome = STOPPED
             break
-        flip(mesh, h)
-        refit(mesh, state.bvh, h)
         state.journal[done] = h
+        state.before[done, 0] = mesh.deviation[h // 3]
+        state.before[done, 1] = mesh.deviation[mesh.twin[h] // 3]
+        flip(mesh, h)
+        add_deviation(mesh, h)
+        refit(mesh, state.bvh, h)
         done += 1
         flips += 1
         drop += gain
@@ -191,9 +201,11 @@ def _sweep(kernels, state, schedule, loss):
 def _anneal(kernels, begin, rules, schedule, loss):
     """Return the last and the best snapshot of the annealing that begins at another one."""
     mesh, best = copy_of(begin.mesh), copy_of(begin.mesh)
-    bvh, journal = refitted(begin.bvh, mesh), np.empty(WORK_PER_CALL, np.int32)
+    bvh = refitted(begin.bvh, mesh)
+    journal, before = np.empty(WORK_PER_CALL, np.int32), np.empty((WORK_PER_CALL, 2))
     left = rules._replace(maxflips=rules.maxflips - begin.flips)
-    progress = _sweep(kernels, AnnealingState(mesh, best, journal, left, bvh), schedule, loss)
+    state = AnnealingState(mesh, best, journal, before, left, bvh)
+    progress = _sweep(kernels, state, schedule, loss)
     at_best = refitted(bvh, best)
     return (
         Snapshot(mesh, bvh, begin.flips + progress.flips, progress.state),

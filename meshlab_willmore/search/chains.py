@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..energy import willmore
+from ..guards import add_deviation
 from ..guards.bvh import Bvh, refit
 from ..mesh.halfedge import NONE, Mesh, apex, flip, following, is_free
 from ..mesh.jit import generic, inner
@@ -37,6 +38,8 @@ class Chain(NamedTuple):
         Ends of the edges that these flips made, the lower one first.
     corner : (D, 6) int32
         What stood in `Mesh.corner` before the flip.
+    deviation : (D, 2) float64
+        What stood in `Mesh.deviation`.
     gain : (D + 1,) float64
         What the first s flips gain, as ranked.
     drop : (D + 1,) float64
@@ -66,6 +69,7 @@ class Chain(NamedTuple):
     flipped: np.ndarray
     joined: np.ndarray
     corner: np.ndarray
+    deviation: np.ndarray
     gain: np.ndarray
     drop: np.ndarray
     willmore: np.ndarray
@@ -133,6 +137,7 @@ def empty_chain(limits):
         flipped=np.empty(depth, np.int32),
         joined=np.empty((depth, 2), np.int32),
         corner=np.empty((depth, CORNERS), np.int32),
+        deviation=np.empty((depth, 2)),
         gain=np.zeros(depth + 1),
         drop=np.zeros(depth + 1),
         willmore=np.zeros(depth + 1),
@@ -265,7 +270,10 @@ def _do(state, s):
     for c in range(3):
         chain.corner[s, c] = mesh.corner[h - h % 3 + c]
         chain.corner[s, 3 + c] = mesh.corner[t - t % 3 + c]
+    chain.deviation[s, 0] = mesh.deviation[h // 3]
+    chain.deviation[s, 1] = mesh.deviation[t // 3]
     flip(mesh, h)
+    add_deviation(mesh, h)
     refit(mesh, state.bvh, h)
 
 
@@ -283,6 +291,8 @@ def _undo(state, s):
     for c in range(3):
         mesh.corner[h - h % 3 + c] = chain.corner[s, c]
         mesh.corner[t - t % 3 + c] = chain.corner[s, 3 + c]
+    mesh.deviation[h // 3] = chain.deviation[s, 0]
+    mesh.deviation[t // 3] = chain.deviation[s, 1]
 
 
 @generic

@@ -36,6 +36,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..energy import willmore
+from ..guards import add_deviation
 from ..guards.bvh import Bvh, inactive_bvh, refit
 from ..guards.intersections import ANY_ROUND
 from ..mesh.halfedge import NONE, Mesh, flip
@@ -118,6 +119,7 @@ def _flip(state, h, cost_reduction):
     """Flip `h`, bring everything up to date, and return about how many edges that has scored."""
     work = SCORES_PER_FLIP
     flip(state.mesh, h)
+    add_deviation(state.mesh, h)
     if state.rules.is_wide:
         work += visit_fans(state, h, scoring.rescore, cost_reduction)
     else:

@@ -44,6 +44,7 @@ def copy_of(mesh):
         twin=mesh.twin.copy(),
         locked=mesh.locked.copy(),
         corner=mesh.corner.copy(),
+        deviation=mesh.deviation.copy(),
     )
 
 
@@ -54,6 +55,7 @@ def assign(mesh, other):
     mesh.twin[:] = other.twin
     mesh.locked[:] = other.locked
     mesh.corner[:] = other.corner
+    mesh.deviation[:] = other.deviation
 
 
 def snapshot_of(mesh, bvh):

@@ -49,9 +49,9 @@ from .rules import (
     CONVERGED,
     DEFAULTS,
     EXISTS,
-    FOLDS,
     INTERSECTS,
     MOST_PASSES,
+    REFUSED,
     STOPPED,
     WORKING,
     Progress,
@@ -205,7 +205,7 @@ def _is_refused(state, h, verdict, is_contested, number):
     is_joined = verdict == EXISTS or (is_contested and not makes_new_edge(mesh, h))
     if is_joined:
         insert(state.blocking, apex(mesh, h), apex(mesh, mesh.twin[at(h)]))
-    if is_joined or verdict == FOLDS:
+    if is_joined or verdict == REFUSED:
         return True
     if verdict == INTERSECTS:
         # Nothing was flipped yet in this round, so that the face is still there.

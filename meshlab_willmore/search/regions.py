@@ -142,7 +142,12 @@ def _region(mesh, part, is_common):
     local = local.reshape(-1, 3).astype(np.int32)
     half_edges = _half_edges(part)
     own = build(mesh.vertices[vertices], local)
-    own = own._replace(corner=mesh.corner[half_edges], locked=mesh.locked[half_edges], uv=mesh.uv)
+    own = own._replace(
+        corner=mesh.corner[half_edges],
+        locked=mesh.locked[half_edges],
+        uv=mesh.uv,
+        deviation=mesh.deviation[part],
+    )
     frozen = is_common[faces].any(axis=1)
     kept = np.flatnonzero(np.repeat(frozen, 3))
     own.locked[kept] = True
@@ -165,6 +170,7 @@ def _put_together(mesh, regions):
         mesh.origin[half_edges] = region.vertices[region.mesh.origin]
         mesh.corner[half_edges] = region.mesh.corner
         mesh.locked[half_edges] = region.mesh.locked
+        mesh.deviation[region.faces] = region.mesh.deviation
         frozen[half_edges] = np.repeat(region.frozen, 3)
     mesh.twin[:] = build(mesh.vertices, faces_of(mesh)).twin
     # Frozen edges are locked only if they were before, and have not moved on the frozen side.

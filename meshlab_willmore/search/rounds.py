@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..guards import add_deviation
 from ..guards.bvh import Bvh
 from ..mesh.halfedge import NONE, Mesh, previous
 from ..mesh.jit import at, inlined, inner, jit
@@ -199,12 +200,14 @@ def mark_dirty(state, h, _):
 def mark_changed(state, start, stop):
     """Mark the edges that the flips from `start` up to `stop` of this round change.
 
-    All flips of the round must be done: they move edges to other half-edges.
+    The bounds of the faces' deviation are brought up to date, too: no face is flipped twice in a
+    round. All flips of the round must be done: they move edges to other half-edges.
     """
     mesh = state.mesh
     for place in range(start, stop):
         h = np.int64(state.done[at(place)])
         t = np.int64(mesh.twin[at(h)])
+        add_deviation(mesh, h)
         if state.rules.is_wide:
             stencil.visit_fans(state, h, rounds.mark_dirty, None)
             for corner in (h, t, previous(h), previous(t)):

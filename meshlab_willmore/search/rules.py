@@ -1,5 +1,6 @@
 """What the searches have in common: options, progress, and when a flip is refused."""
 
+import math
 from typing import NamedTuple
 
 from .. import guards
@@ -9,8 +10,8 @@ from ..mesh.jit import generic, inner
 from .containers import contains, watch
 
 WORKING, CONVERGED, STOPPED = range(3)
-# Why a flip is refused.
-ALLOWED, FOLDS, EXISTS, INTERSECTS = range(4)
+# Why a flip is refused; `REFUSED`: by a guard that looks at the two faces only.
+ALLOWED, REFUSED, EXISTS, INTERSECTS = range(4)
 NO_LIMIT = 2**62
 # Ties that go round in circles are made this often.
 MOST_PASSES = 10
@@ -41,6 +42,8 @@ class Rules(NamedTuple):
         As in `meshlab_willmore.energy.table.Energy`.
     virtualpoint : float
         Place of the virtual points in (0, 1), for the energies that ask for it.
+    maxdeviation : float
+        How far, at unit scale, flips may take the surface from the input.
     """
 
     fold: guards.FoldLimits
@@ -52,6 +55,7 @@ class Rules(NamedTuple):
     is_potential: bool = False
     is_wide: bool = False
     virtualpoint: float = 0.5
+    maxdeviation: float = math.inf
 
 
 class ChainLimits(NamedTuple):
@@ -146,8 +150,8 @@ def refusal(mesh, h, rules):
 
     Searches ask whether an edge is free first, then for its cost reduction, then this.
     """
-    if guards.folds(mesh, h, rules.fold):
-        return FOLDS
+    if guards.folds(mesh, h, rules.fold) or guards.deviates(mesh, h, rules.maxdeviation):
+        return REFUSED
     # Last, since it alone takes longer than O(1).
     return ALLOWED if makes_new_edge(mesh, h) else EXISTS
 

@@ -41,6 +41,7 @@ around them, may be one flip longer. There are few of them on smooth surfaces.
 import numpy as np
 
 from ..energy import delaunay, willmore
+from ..guards import add_deviation
 from ..guards.bvh import inactive_bvh, refit
 from ..mesh.halfedge import NONE, apex, flip, following, is_free
 from ..mesh.jit import inner, jit
@@ -138,6 +139,7 @@ def _keep(state, length):
         h = np.int64(chain.best[s])
         _mark_diamond(mesh, h, state.changed)
         flip(mesh, h)
+        add_deviation(mesh, h)
         refit(mesh, state.bvh, h)
         # A later flip of the chain moves edges to other half-edges, but queues all these as well.
         _queue_edge(mesh, queue, h)

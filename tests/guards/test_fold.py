@@ -13,7 +13,7 @@ from tests import meshes
 from tests.connectivity import can_flip
 
 ON = guards.fold_limits(90.0)
-OFF = guards.fold_limits(180.0)
+OFF = guards.fold_limits(180.0, 0.0)
 
 
 def hinge(degrees, width=1.0):

@@ -13,7 +13,7 @@ from tests import meshes
 from tests.connectivity import can_flip
 from tests.search.ways import locked_edges
 
-ALL = guards.fold_limits(180.0)
+ALL = guards.fold_limits(180.0, 0.0)
 # A square with the diagonal i-j, and what else k and l may be.
 I, J = (0.0, 0.0), (4.0, 4.0)
 K, L = (0.0, 4.0), (4.0, 0.0)

@@ -41,7 +41,7 @@ MESHES = {
     "bow tie": meshes.bow_tie(),
     "shuffled": arrays_of(shuffled(20, 1)),
 }
-GUARDED, FREE = guards.fold_limits(90.0), guards.fold_limits(180.0)
+GUARDED, FREE = guards.fold_limits(90.0), guards.fold_limits(180.0, 0.0)
 # More flips than any of these runs needs: a search that went round in circles would end too.
 MANY = 20_000
 

@@ -14,7 +14,7 @@ from meshlab_willmore.search.rules import Rules
 from tests import meshes
 from tests.connectivity import can_flip
 
-GUARDED, FREE = guards.fold_limits(90.0), guards.fold_limits(180.0)
+GUARDED, FREE = guards.fold_limits(90.0), guards.fold_limits(180.0, 0.0)
 
 
 def some_locked():

@@ -113,20 +113,27 @@ def _help(option: Option) -> str:
 
 
 def check_flip_options(given: dict[str, Any]) -> None:
-    """Raise `WrongUse` for the first option that the filter can't take, each checked by itself."""
+    """Raise `WrongUse` for the first option that the filter can't take, alone or beside others."""
     from ..meshset.filters import BY_NAME
     from ..meshset.native import ERRORS
 
-    for parameter in BY_NAME[FILTER].parameters:
+    filter_ = BY_NAME[FILTER]
+    values = {}
+    for parameter in filter_.parameters:
         if parameter.name in given:
             try:
                 value = parameter.read(given[parameter.name])
                 if parameter.check is not None:
                     parameter.check(value)
+                values[parameter.name] = value
             except ERRORS as error:
                 raise WrongUse(f"--{parameter.name}: {reason(error)}") from error
             except ValueError as error:
                 raise WrongUse(f"--{parameter.name}: {error}") from error
+    barred = filter_.barred(values)
+    for name in given:
+        if name in barred:
+            raise WrongUse(f"--{name}: {barred[name]}")
 
 
 def is_part(word: str) -> bool:

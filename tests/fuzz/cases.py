@@ -10,15 +10,18 @@ from meshlab_willmore.measure import self_intersections
 from meshlab_willmore.mesh import parallel
 from meshlab_willmore.optimize import optimize_flips
 from meshlab_willmore.search import parallel_greedy, regions, rounds
+from tests.distances import farthest
 
 from . import energies, promise
-from .choices import random_options
+from .choices import random_options, random_passes
 from .shapes import random_mesh
 
 # Edges of slivers of a lower shape are no creases.
 CREASE_SHAPE = 1e-5
 # Coordinates below this part of the largest one count as zero.
 LEAST = 2.0**-74
+# What rounding may add to a distance, at unit scale.
+SLACK = 2e-12
 # What says itself that a second run may find more, by random kicks or several starts, and what to
 # run instead.
 AGAIN = {"annealing": "greedy", "thorough": "variable depth"}
@@ -33,6 +36,9 @@ class Case:
         self.vertices, self.faces, self.made_by = random_mesh(rng)
         self.options = random_options(rng, self.vertices, self.faces)
         self.parts = int(rng.choice([2, 4, 10**6]))
+        self.has_passes = bool(rng.random() < 0.15)
+        if self.has_passes:
+            self.options = random_passes(rng, self.vertices, self.faces)
 
     def check(self):
         """Run and check; an AssertionError says how to see it again."""
@@ -57,10 +63,12 @@ class Case:
         if is_sure:
             promise.check_corners(faces, result.faces, result.corners, locked)
         self._check_numbers(result)
-        self._check_energy(result)
+        self._check_deviation(result)
         self._check_cuts(result)
         self._check_repeated(vertices, faces, result)
-        self._check_again(vertices, result, locked, is_sure)
+        if not self.has_passes:
+            self._check_energy(result)
+            self._check_again(vertices, result, locked, is_sure)
 
     def _carried(self, result):
         """The texture coordinates of the new faces."""
@@ -117,8 +125,12 @@ class Case:
         assert np.isfinite(result.willmore_before)
         assert np.isfinite(result.willmore_after)
         assert np.isfinite(result.gain)
-        assert result.converged or limit is not None
-        assert limit is None or self.options["search"] == "annealing" or result.flips <= limit
+        passes = self.options.get("passes", [self.options])
+        limits = [limit, *(one.get("maxflips") for one in passes)]
+        assert result.converged or any(value is not None for value in limits)
+        is_random = any(one.get("search") == "annealing" for one in passes)
+        assert limit is None or is_random or result.flips <= limit
+        assert 0.0 <= result.worst_shape_after <= result.mean_shape_after <= 1.0 + 1e-12
         gone = len(
             promise.edges(promise.half_edges(self.faces))
             - promise.edges(promise.half_edges(result.faces))
@@ -156,9 +168,23 @@ class Case:
                 f"{energy} fell by {before - after}, not by {gain} (rounding: {slack})"
             )
 
+    def _check_deviation(self, result):
+        """No point is farther from the other surface than the result and the limits say."""
+        _, scale = self._at_unit_scale()
+        vertices = (self.vertices / scale).astype(float)
+        bound = float(result.deviation / scale)
+        there, back = farthest(vertices, self.faces, result.faces)
+        assert max(there, back) <= bound + SLACK, f"{max(there, back)} away, not {bound}"
+        limit = self.options.get("maxdeviation")
+        if limit is not None and not self.has_passes:
+            assert bound <= float(limit / scale) + SLACK, f"{bound} exceeds the limit"
+
     def _check_cuts(self, result):
         """No new face cuts another one."""
-        if not self.options["checkintersections"] or not result.flips:
+        passes = self.options.get("passes", [{}])
+        if not all({**self.options, **one}["checkintersections"] for one in passes):
+            return
+        if not result.flips:
             return
         old = set(map(frozenset, self.faces.tolist()))
         is_new = np.array([frozenset(face) not in old for face in result.faces.tolist()])
@@ -170,12 +196,13 @@ class Case:
         np.testing.assert_array_equal(other.faces, result.faces)
         np.testing.assert_array_equal(other.corners, result.corners)
         assert other[1:2] + other[3:7] == result[1:2] + result[3:7]
+        assert other.deviation == result.deviation
         np.testing.assert_allclose(other.gain, result.gain, rtol=1e-9)
 
     def _check_again(self, vertices, result, locked, is_sure):
         """Nothing is left where the first run says so."""
         options = dict(self.options)
-        if not (result.converged and is_sure):
+        if not (result.converged and is_sure) or "maxdeviation" in options:
             return
         if options["energy"] == "virtual willmore" and not options["monotone"]:
             return

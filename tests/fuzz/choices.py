@@ -2,12 +2,34 @@
 
 import numpy as np
 
-from meshlab_willmore.options import ENERGY, SEARCH
+from meshlab_willmore.options import ENERGY, PRESET, SEARCH
+from meshlab_willmore.passes import PASS_OPTIONS
+from meshlab_willmore.presets import SEARCH_OPTIONS
 from tests import reference
 
 
 def _angle(rng, usual):
     return float(rng.choice([usual, usual, 0.0, 30.0, 90.0, 180.0, rng.uniform(0.0, 180.0)]))
+
+
+def _deviation(rng, vertices, faces):
+    size = float(np.abs(vertices[faces]).max(initial=0.0))
+    return float(rng.choice([0.0, size, size * 10.0 ** rng.uniform(-6.0, 0.0)]))
+
+
+def random_passes(rng, vertices, faces):
+    """A preset, or a few passes of random options, and options that are for all of them."""
+    options = random_options(rng, vertices, faces)
+    shared = {name: value for name, value in options.items() if name not in SEARCH_OPTIONS}
+    if rng.random() < 0.5:
+        return {**shared, "preset": str(rng.choice(PRESET.choices[1:]))}
+    passes = []
+    for _ in range(int(rng.integers(1, 4))):
+        options = random_options(rng, vertices, faces)
+        kept = rng.random(len(options)) < 0.7
+        chosen = zip(options.items(), kept, strict=True)
+        passes.append({k: v for (k, v), keep in chosen if keep and k in PASS_OPTIONS})
+    return {**shared, "passes": passes}
 
 
 def random_mapping(rng, vertices, faces):
@@ -34,6 +56,10 @@ def random_options(rng, vertices, faces):
         "checkintersections": bool(rng.random() < 0.5),
         "foldangle": _angle(rng, 90.0),
     }
+    if rng.random() < 0.3:
+        options["minshape"] = float(rng.choice([0.0, 0.0, 1.0, rng.random()]))
+    if rng.random() < 0.3:
+        options["maxdeviation"] = _deviation(rng, vertices, faces)
     if rng.random() < 0.3:
         options["featuredeg"] = _angle(rng, 30.0)
     if rng.random() < 0.2:

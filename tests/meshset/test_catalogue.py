@@ -276,6 +276,7 @@ def test_ours_are_as_their_table_says():
         assert [p.keyword for p in known.params] == [p.name for p in filter_.parameters]
     types = {p.name: p.type for p in find(FLIP).params}
     assert types == {
+        "preset": "RichEnum",
         "selection": "RichBool",
         "energy": "RichEnum",
         "search": "RichEnum",
@@ -286,6 +287,8 @@ def test_ours_are_as_their_table_says():
         "virtualpoint": "RichString",
         "monotone": "RichBool",
         "foldangle": "RichFloat",
+        "minshape": "RichFloat",
+        "maxdeviation": "RichAbsPerc",
         "checkintersections": "RichBool",
         "featuredeg": "RichFloat",
         "maxflips": "RichInt",

@@ -111,7 +111,7 @@ def test_defaults_and_given_values_together():
 def test_a_number_may_be_given_as_text(value, text):
     parameter = Parameter("place", str, "midpoint", "Place", "Where.")
     assert parameter.read(value) == text
-    assert parameter.default_for(None) == "midpoint"
+    assert parameter.default_for(None, {}) == "midpoint"
 
 
 @pytest.mark.parametrize("value", [True, None, [0.5], b"midpoint", 1j])

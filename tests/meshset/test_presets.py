@@ -59,7 +59,9 @@ def test_a_plain_number_is_no_deviation_as_in_pymeshlab(value):
     ms = set_of(*MESH)
     with pytest.raises(pymeshlab.PyMeshLabException):
         ms.meshing_merge_close_vertices(threshold=value)
-    with pytest.raises(pymeshlab.PyMeshLabException, match="a pymeshlab.PercentageValue, or a pymeshlab.PureValue"):
+    with pytest.raises(
+        pymeshlab.PyMeshLabException, match="a pymeshlab.PercentageValue, or a pymeshlab.PureValue"
+    ):
         ms.apply_filter(FLIP, maxdeviation=value)
 
 

@@ -11,7 +11,7 @@ import pytest
 import meshlab_willmore
 from meshlab_willmore.meshset import native
 from meshlab_willmore.mlx.read import read
-from meshlab_willmore.mlx.steps import Step
+from meshlab_willmore.mlx.steps import Percentage, Step
 from meshlab_willmore.mlx.write import to_xml
 from tests import meshes
 from tests.meshset.conftest import FLIP, SAMPLES, set_of
@@ -89,6 +89,7 @@ def test_steps_are_recorded_in_their_order_with_all_parameters(bumpy, tmp_path):
     assert measure == Step("Willmore measures")
     assert flip.filter == "Willmore flipping optimization"
     assert {p.name: (p.type, p.value) for p in flip.params} == {
+        "preset": ("RichEnum", 0),
         "selection": ("RichBool", False),
         "energy": ("RichEnum", 1),
         "search": ("RichEnum", 0),
@@ -99,6 +100,8 @@ def test_steps_are_recorded_in_their_order_with_all_parameters(bumpy, tmp_path):
         "virtualpoint": ("RichString", "0.25"),
         "monotone": ("RichBool", True),
         "foldangle": ("RichFloat", 90.0),
+        "minshape": ("RichFloat", 0.05),
+        "maxdeviation": ("RichAbsPerc", Percentage(100.0)),
         "checkintersections": ("RichBool", False),
         "featuredeg": ("RichFloat", 180.0),
         "maxflips": ("RichInt", 7),

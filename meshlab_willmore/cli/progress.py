@@ -54,9 +54,13 @@ class Status:
 
     def next(self, what: str) -> None:
         """Begin the next part; the one before is done."""
+        self.begin(what)
+        self.count()
+
+    def count(self) -> None:
+        """Begin the next part of what is being done, by the same clock."""
         self._done = self._begun
         self._begun += 1
-        self.begin(what)
         if self._screen is not None:
             self._screen.draw()
 

@@ -34,8 +34,13 @@ def command() -> None:
             click.echo(line, err=True)
 
     with progress.shown("warmup", len(steps())) as status, progress.with_details(status):
+
+        def end(name: str) -> None:
+            status.count()
+            status.detail(f"done with {name}")
+
         status.next("everything that is not compiled yet")
-        done = warm_up(show, core_count(), lambda name: status.next(f"done with {name}"))
+        done = warm_up(show, core_count(), end)
     what = f"{counted(done.compiled, 'kernel')} compiled"
     if not done.compiled:
         what = "everything was compiled already"

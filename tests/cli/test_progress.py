@@ -57,6 +57,18 @@ def test_line_and_sentence():
     assert status.line(80) == "scan.ply  [####------------]  25%  saving, 0 s"
 
 
+def test_parts_of_one_thing_are_counted_by_one_clock():
+    clock = Clock()
+    status = Status("warmup", 4, clock)
+    status.next("everything")
+    clock.now = 2.0
+    status.count()
+    status.detail("done with greedy")
+    clock.now = 14.9
+    assert status.sentence() == "warmup: everything: done with greedy (2 of 4), 14 s so far"
+    assert status.line(80).startswith("warmup  [####------------]  25%  everything: done")
+
+
 def test_details_are_cut_last():
     status = Status("scan.ply", 8)
     status.begin("meshing_edge_flip_by_willmore_optimization")

@@ -19,10 +19,12 @@ sum too, and only the fold guard forbids it.
 import math
 
 from ..mesh.halfedge import diamond
-from ..mesh.jit import inner, jit
-from ..mesh.points import norm
+from ..mesh.jit import inlined, inner, jit
+from ..mesh.points import dot, norm, subtract
 from ..mesh.rounding import good_normal
-from .triangles import corners, drop_of, has_coincident_corners
+from .plain import quad_normals
+from .triangles import corners, drop_of, has_coincident_corners, without_rounding
+from .wings import wings_of
 
 # A face without area counts as one of this sum: an infinite one would forbid the flip that removes
 # it. Flatter than this, and still not quite flat, are hardly any.
@@ -39,12 +41,27 @@ def _cotangents(a, b, c):
     return squares / four_areas, False
 
 
-@inner
-def cost_reduction(mesh, h):
-    """Return the drop of the sum of the cotangents, a pure number.
+@inlined
+def _squared_length(a, b):
+    side = subtract(b, a)
+    return dot(side, side)
 
-    It is minus infinity also where a face has more than `FLATTEST` without being flat.
-    """
+
+@inlined
+def quick_reduction(quad, wings):
+    """Return the cost reduction in plain arithmetic; NaN where `cost_reduction` looks closer."""
+    i, j, k, l = quad
+    normals = quad_normals(quad)
+    i_j, k_l = _squared_length(i, j), _squared_length(k, l)
+    j_k, k_i = _squared_length(j, k), _squared_length(k, i)
+    i_l, l_j = _squared_length(i, l), _squared_length(l, j)
+    before = (i_j + j_k + k_i) / norm(normals.at_k) + (i_j + i_l + l_j) / norm(normals.at_l)
+    after = (k_l + k_i + i_l) / norm(normals.at_i) + (k_l + l_j + j_k) / norm(normals.at_j)
+    return 0.5 * without_rounding(before - after, before + after)
+
+
+@inner
+def _careful_reduction(mesh, h):
     quad = diamond(mesh, h)
     if has_coincident_corners(quad):
         return -math.inf
@@ -58,6 +75,16 @@ def cost_reduction(mesh, h):
         before += had
         after += has
     return drop_of(before, after)
+
+
+@inner
+def cost_reduction(mesh, h):
+    """Return the drop of the sum of the cotangents, a pure number.
+
+    It is minus infinity also where a face has more than `FLATTEST` without being flat.
+    """
+    gain = quick_reduction(diamond(mesh, h), wings_of(mesh, h))
+    return gain if math.isfinite(gain) else _careful_reduction(mesh, h)
 
 
 @jit

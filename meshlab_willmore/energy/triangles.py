@@ -2,7 +2,7 @@
 
 import math
 
-from ..mesh.jit import inner
+from ..mesh.jit import inlined, inner
 from ..mesh.points import cross, dot, norm, point
 from ..mesh.rounding import good_normal
 from .angles import ComplexAngle
@@ -12,12 +12,16 @@ from .angles import ComplexAngle
 ROUNDING = 1e-13
 
 
+@inlined
+def without_rounding(gain, size):
+    """Return a difference of two sums that are `size` in all; 0 if it is made of rounding."""
+    return 0.0 if abs(gain) <= ROUNDING * size else gain
+
+
 @inner
 def drop_of(before, after):
     """Return ``before - after``, two sums over faces: 0 if it is rounding, -inf if not finite."""
-    gain = before - after
-    if abs(gain) <= ROUNDING * (before + after):
-        return 0.0
+    gain = without_rounding(before - after, before + after)
     return gain if math.isfinite(gain) else -math.inf
 
 

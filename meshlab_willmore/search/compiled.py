@@ -81,6 +81,8 @@ def _kernels(module, is_potential):
     other = None if is_potential else willmore
     judge = other or energy
     score = scoring.score_batches if hasattr(energy, "drop") else scoring.score_each
+    if hasattr(energy, "quick_reduction"):
+        score = scoring.score_quickly
     return Kernels(
         energy=energy,
         greedy=_compiled(greedy.advance, energy),

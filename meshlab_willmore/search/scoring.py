@@ -1,13 +1,15 @@
 """What a flip gains: the rank of one edge in a queue, and the scores of many edges at once.
 
-`rank` and `rescore` serve the greedy search, `score_each` and `score_batches` the greedy search in
-rounds. For each energy `meshlab_willmore.search.compiled` makes a copy of one of the last two.
-`score_batches` is for energies with a function `drop`. It gathers the coordinates that flips look
-at from all over the mesh into the rows of one small array, one lane an edge. On these the
-arithmetic runs without branches, calls and gathers, so that the compiler does several lanes in one
-instruction. Each lane gets the bits that a single edge would get: nothing is reordered.
+`rank` and `rescore` serve the greedy search, the others the greedy search in rounds. For each
+energy `meshlab_willmore.search.compiled` makes a copy of one of these: `score_batches` for energies
+with a function `drop`, `score_quickly` with `quick_reduction`, else `score_each`. The first two
+gather the coordinates that flips look at from all over the mesh into the rows of one small array,
+one lane an edge. On these the arithmetic runs without branches, calls and gathers, so that the
+compiler does several lanes in one instruction. Each lane gets the bits that a single edge would
+get: nothing is reordered.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -183,6 +185,37 @@ def score_batches(state, start, stop):
         _judge_batch(state, helpful, queued, judge)
 
 
+@generic
+def _note_batch(state, batch, count, energy):
+    """Note the first `count` edges of a batch; ask one by one of those that need a closer look."""
+    find_reductions(batch.rows, energy.quick_reduction)
+    rules = state.rules
+    for lane in range(count):
+        h, gain = batch.edges[lane], batch.rows[_DROP * LANES + lane]
+        if not math.isfinite(gain):
+            gain = energy.cost_reduction(state.mesh, h)
+        if gain > rules.tolerance:
+            change = willmore.cost_reduction(state.mesh, h) if rules.monotone else 0.0
+            _note(state, h, gain, change)
+
+
+def score_quickly(state, start, stop):
+    """Score the dirty edges from `start` up to `stop`, most of them many at once."""
+    batch, count = _empty_batch(), np.int64(0)
+    for place in range(start, stop):
+        h = state.dirty[at(place)]
+        forbid(state, h)
+        if not is_free(state.mesh, h):
+            continue
+        fill(batch.rows, count, state.mesh, h)
+        batch.edges[count] = h
+        count += 1
+        if count == LANES:
+            _note_batch(state, batch, count, energy)
+            count = 0
+    _note_batch(state, batch, count, energy)
+
+
 # --- rows and lanes ------------------------------------------------------------------------------
 
 LANES = 64
@@ -299,6 +332,21 @@ def find_drops(rows, drop):
         rows[_DROP * LANES + lane] = angles.r
         rows[(_DROP + 1) * LANES + lane] = angles.s
         rows[(_DROP + 2) * LANES + lane] = angles.half_turns
+
+
+@generic
+def find_reductions(rows, quick_reduction):
+    """Write the cost reduction of each lane, or NaN, into the first of the last three rows.
+
+    Parameters
+    ----------
+    rows : (rows,) float64
+        From `empty_rows`, filled; changed in place. Lanes that were not filled do no harm.
+    quick_reduction : callable
+        Jitted function of a Diamond and its Wings.
+    """
+    for lane in range(LANES):
+        rows[_DROP * LANES + lane] = quick_reduction(_quad(rows, lane), _wings(rows, lane))
 
 
 @inlined

@@ -461,6 +461,7 @@ def _suited(rules, row, mesh):
         monotone=rules.monotone and not row.is_potential,
         is_potential=row.is_potential,
         is_wide=row.is_wide,
+        is_narrow=row.is_narrow,
     )
     if not (row.length_power and len(mesh.origin)):
         return rules

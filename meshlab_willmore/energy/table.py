@@ -25,6 +25,9 @@ class Energy(NamedTuple):
     is_wide : bool
         Whether a flip changes the cost reductions of all edges at, and opposite to, the corners of
         its diamond; else only those of its sides and of the other sides of the faces outside.
+    is_narrow : bool
+        Whether a cost reduction depends on the two faces at the edge alone, so that a flip changes
+        only those of the sides of its diamond.
     """
 
     module: str
@@ -33,6 +36,7 @@ class Energy(NamedTuple):
     length_power: int = 0
     least: float = 1e-7
     is_wide: bool = False
+    is_narrow: bool = False
 
 
 # The first is the default.
@@ -53,6 +57,7 @@ ENERGIES = {
         # The cost reduction itself leaves rounding out, and areas of details are tiny.
         length_power=2,
         least=1e-16,
+        is_narrow=True,
     ),
     "mean curvature": Energy(
         "mean_curvature",
@@ -62,7 +67,7 @@ ENERGIES = {
     "gaussian curvature": Energy(
         "gaussian_curvature", "absolute angle defects; for comparison", is_wide=True
     ),
-    "delaunay": Energy("delaunay", "the cotangents of all angles; like 'area'"),
+    "delaunay": Energy("delaunay", "the cotangents of all angles; like 'area'", is_narrow=True),
 }
 
 # The modules of "virtual willmore" by where the virtual points are; `AT`: at a number.

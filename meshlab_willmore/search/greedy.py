@@ -72,7 +72,7 @@ from .rules import (
     is_tabu,
     refusal,
 )
-from .stencil import visit_fans, visit_freed, visit_stencil
+from .stencil import visit_fans, visit_freed, visit_quad, visit_stencil
 
 # For each energy `meshlab_willmore.search.compiled` puts its own module in this place.
 energy = willmore
@@ -122,6 +122,8 @@ def _flip(state, h, cost_reduction):
     add_deviation(state.mesh, h)
     if state.rules.is_wide:
         work += visit_fans(state, h, scoring.rescore, cost_reduction)
+    elif state.rules.is_narrow:
+        visit_quad(state, h, scoring.rescore, cost_reduction)
     else:
         visit_stencil(state, h, scoring.rescore, cost_reduction)
     visit_freed(state, h, scoring.rescore, cost_reduction)

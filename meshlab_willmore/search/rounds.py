@@ -212,6 +212,8 @@ def mark_changed(state, start, stop):
             stencil.visit_fans(state, h, rounds.mark_dirty, None)
             for corner in (h, t, previous(h), previous(t)):
                 state.taken[mesh.origin[corner]] = False
+        elif state.rules.is_narrow:
+            stencil.visit_quad(state, h, rounds.mark_dirty, None)
         else:
             stencil.visit_stencil(state, h, rounds.mark_dirty, None)
         i, j = mesh.origin[at(previous(h))], mesh.origin[at(previous(t))]

@@ -38,7 +38,7 @@ class Rules(NamedTuple):
     rank_step : float
         Cost reductions are ranked in steps of this size (in units of the energy). Edges that are
         equal by symmetry then go by number, and not by rounding, which a rotation would change.
-    is_potential, is_wide : bool
+    is_potential, is_wide, is_narrow : bool
         As in `meshlab_willmore.energy.table.Energy`.
     virtualpoint : float
         Place of the virtual points in (0, 1), for the energies that ask for it.
@@ -54,6 +54,7 @@ class Rules(NamedTuple):
     rank_step: float = 1e-9
     is_potential: bool = False
     is_wide: bool = False
+    is_narrow: bool = False
     virtualpoint: float = 0.5
     maxdeviation: float = math.inf
 

@@ -207,7 +207,9 @@ def score_quickly(state, start, stop):
         forbid(state, h)
         if not is_free(state.mesh, h):
             continue
-        fill(batch.rows, count, state.mesh, h)
+        fill_quad(batch.rows, count, state.mesh, h)
+        if not state.rules.is_narrow:
+            fill_wings(batch.rows, count, state.mesh, h)
         batch.edges[count] = h
         count += 1
         if count == LANES:
@@ -262,19 +264,32 @@ def empty_rows():
 
 
 @inlined
-def fill(rows, place, mesh, half_edge):
-    """Write what the flip of `half_edge`, which has a twin, looks at into lane `place`."""
+def fill_quad(rows, place, mesh, half_edge):
+    """Write the diamond of `half_edge`, which has a twin, into lane `place`."""
     lane, h = np.uint64(place), np.uint64(half_edge)
     t = np.uint64(mesh.twin[h])
-    j_k, k_i, i_l, l_j = _following(h), _previous(h), _following(t), _previous(t)
     _write(rows, 0, lane, mesh.vertices, mesh.origin[h])
     _write(rows, 3, lane, mesh.vertices, mesh.origin[t])
-    _write(rows, 6, lane, mesh.vertices, mesh.origin[k_i])
-    _write(rows, 9, lane, mesh.vertices, mesh.origin[l_j])
-    _write_outside(rows, 0, lane, mesh, j_k)
-    _write_outside(rows, 1, lane, mesh, k_i)
-    _write_outside(rows, 2, lane, mesh, i_l)
-    _write_outside(rows, 3, lane, mesh, l_j)
+    _write(rows, 6, lane, mesh.vertices, mesh.origin[_previous(h)])
+    _write(rows, 9, lane, mesh.vertices, mesh.origin[_previous(t)])
+
+
+@inlined
+def fill_wings(rows, place, mesh, half_edge):
+    """Write the wings of that diamond into lane `place`."""
+    lane, h = np.uint64(place), np.uint64(half_edge)
+    t = np.uint64(mesh.twin[h])
+    _write_outside(rows, 0, lane, mesh, _following(h))
+    _write_outside(rows, 1, lane, mesh, _previous(h))
+    _write_outside(rows, 2, lane, mesh, _following(t))
+    _write_outside(rows, 3, lane, mesh, _previous(t))
+
+
+@inlined
+def fill(rows, place, mesh, half_edge):
+    """Write what the flip of `half_edge`, which has a twin, looks at into lane `place`."""
+    fill_quad(rows, place, mesh, half_edge)
+    fill_wings(rows, place, mesh, half_edge)
 
 
 @inlined

@@ -50,6 +50,14 @@ def visit_stencil(task, h, visit, argument):
 
 
 @generic
+def visit_quad(task, h, visit, argument):
+    """Visit the edge of `h`, and the sides of its diamond."""
+    t = np.int64(task.mesh.twin[at(h)])
+    for edge in (h, following(h), previous(h), following(t), previous(t)):
+        visit(task, edge, argument)
+
+
+@generic
 def visit_fans(task, h, visit, argument):
     """Visit the edges at, and opposite to, the corners of the diamond of `h`.
 

@@ -13,6 +13,7 @@ from meshlab_willmore.energy import (
     delaunay,
     gaussian_curvature,
     mean_curvature,
+    table,
     uniform,
     willmore,
 )
@@ -178,7 +179,7 @@ def near(mesh, energy, h):
     """The edges whose cost reduction a flip of `h` may change, `h` being flipped already."""
     two = (h // 3, mesh.twin[h] // 3)
     inside = [g for f in two for g in range(3 * f, 3 * f + 3)]
-    if energy in ("area", "delaunay"):
+    if table.ENERGIES[energy].is_narrow:
         reached = inside
     elif energy == "gaussian curvature":
         touched = corners_at(mesh, h)

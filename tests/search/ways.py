@@ -55,7 +55,13 @@ each_energy_and_mesh = pytest.mark.parametrize(
 def rules_for(energy, fold=GUARDED):
     """The rules under which an energy is lowered; lengths are near 1 in these meshes."""
     row = ENERGIES[energy]
-    return Rules(fold, not row.is_potential, is_potential=row.is_potential, is_wide=row.is_wide)
+    return Rules(
+        fold,
+        not row.is_potential,
+        is_potential=row.is_potential,
+        is_wide=row.is_wide,
+        is_narrow=row.is_narrow,
+    )
 
 
 def ends(mesh, h):

@@ -122,11 +122,21 @@ def cost_reduction(mesh, h):
 
 
 @inner
-def bend(mesh, h):
-    """Return the dihedral angle times the length of `h`, which has a twin."""
+def _careful_bend(mesh, h):
     i, j, k, l = diamond(mesh, h)
     angle = angle_between(good_direction(i, j, k), good_direction(j, i, l))
     return angle * norm(subtract(j, i))
+
+
+@inlined
+def bend(mesh, h):
+    """Return the dihedral angle times the length of `h`, which has a twin."""
+    i, j, k, l = diamond(mesh, h)
+    side, outward = subtract(j, i), subtract(l, i)
+    at_k, at_l = plain_normal(side, subtract(k, i)), plain_normal(outward, side)
+    length = norm(side)
+    bend = length * arctangent(length * abs(dot(at_k, outward)), dot(at_k, at_l))
+    return bend if math.isfinite(bend) else _careful_bend(mesh, h)
 
 
 @jit

@@ -94,7 +94,7 @@ def assert_equal(one, other):
 def scramble(mesh, seed, flips_per_edge=2):
     """Make random flips that connectivity and fold guard allow."""
     rng = np.random.default_rng(seed)
-    left = flips_per_edge * len(mesh.origin) // 2
+    left = round(flips_per_edge * len(mesh.origin) / 2)
     while left > 0:
         for h in rng.integers(0, len(mesh.origin), left):
             if can_flip(mesh, h) and not guards.folds(mesh, h, GUARDED):

@@ -13,10 +13,11 @@ from typing import Any
 
 import click
 
+from ..mesh_files.formats import MANNERS, PARTS
+from ..mesh_files.paths import Output
+from ..messages import WrongUse, reason
 from ..options import FILTER, OPTIONS, Length, Option
-from .errors import WrongUse, reason
-from .formats import MANNERS, PARTS
-from .paths import Output, is_script
+from .scripts import is_script
 
 LAYER_HELP = "an index from 0, c for the current layer, or x for the last one"
 

@@ -13,12 +13,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from .. import numba_settings
+from ..mesh_files.paths import only_input
+from ..messages import WrongUse
 from ..options import ALLOWLOSS, ENERGY, SEARCH, SELECTION, Option
 from . import compare_row, progress
 from .arguments import check_flip_options, flip_options, json_option
 from .compare_row import Comparison, Outcome, check_reference
-from .errors import WrongUse, debug_option, is_debug
-from .paths import only_input
+from .errors import debug_option, is_debug
 from .text import for_json, table
 
 if TYPE_CHECKING:

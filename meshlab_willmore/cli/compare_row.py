@@ -23,10 +23,10 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, NamedTuple
 
 from .. import machine
+from ..mesh_files import loading
+from ..mesh_files.paths import check_input
+from ..messages import WrongUse, reason
 from ..temporary_files import temporary_folder
-from . import loading
-from .errors import WrongUse, reason
-from .paths import check_input
 
 if TYPE_CHECKING:
     from ..compare.reference import Reference, Sphere, Torus

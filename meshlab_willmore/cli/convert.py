@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 import click
 
 from ..files import is_stream, write
+from ..mesh_files.paths import check_place
 from .arguments import force_option
 from .errors import debug_option
-from .paths import STANDARD_STREAM, check_place, read_script
+from .scripts import STANDARD_STREAM, read_script
 
 if TYPE_CHECKING:
     from ..meshset.check import Call

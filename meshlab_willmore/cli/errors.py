@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import os
-import re
 import signal
 import sys
-import threading
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -17,13 +15,12 @@ from typing import Any
 import click
 
 from .. import machine
-from ..markup import plain
+from ..messages import WrongUse, notes_taken_by, one_line
 from ..mlx.steps import ScriptError
+from ..signals import ENDING, handled_by
 
 DOCTOR = " ('meshlab-willmore doctor' shows what is missing)"
 
-# How messages of PyMeshLab begin: that it failed, at what, and in which file.
-_PRELUDE = re.compile(r"(?:Error d|D)etails:|Unable to (?:open|save) file:[^\n]*\n")
 # How a command line of meshlabserver begins.
 _OLD_OPTIONS = ("-i", "-o", "-s", "-l", "-m", "-p", "-w", "-x", "-d")
 _SCRIPT = ".mlx"
@@ -35,8 +32,6 @@ _COMMANDS = {
 
 # A shell reports this plus its number for a process that a signal ended.
 SIGNAL_EXIT = 128
-# Windows has no SIGHUP.
-_WATCHED = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
 
 
 class FaultyScript(click.ClickException):
@@ -51,7 +46,7 @@ class FaultyScript(click.ClickException):
             click.echo(f"Error: {line}", file=file, err=file is None)
 
 
-class WrongUse(click.ClickException):
+class _WrongUse(click.ClickException):
     """A command line that can't be right: one line, exit code 2."""
 
     exit_code = 2
@@ -67,16 +62,27 @@ class OneLineErrors(click.Group):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Read the options before the command's name."""
-        _refuse_old_form(args)
         with _usage_errors_in_one_line():
+            _refuse_old_form(args)
             return super().parse_args(ctx, args)
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command; click's own errors stay, others become one line."""
-        with stopped_by_signals(ctx), _usage_errors_in_one_line(), _warnings_as_notes():
+        with (
+            stopped_by_signals(ctx),
+            _usage_errors_in_one_line(),
+            _warnings_as_notes(),
+            notes_taken_by(lambda text: click.echo(f"Note: {text}", err=True)),
+        ):
             try:
                 return super().invoke(ctx)
-            except (click.ClickException, click.exceptions.Exit, click.Abort, BrokenPipeError):
+            except (
+                click.ClickException,
+                click.exceptions.Exit,
+                click.Abort,
+                BrokenPipeError,
+                WrongUse,
+            ):
                 raise
             except Exception as error:
                 if is_debug():
@@ -95,12 +101,14 @@ def _refuse_old_form(args: list[str]) -> None:
 def _usage_errors_in_one_line() -> Iterator[None]:
     try:
         yield
+    except WrongUse as error:
+        raise _WrongUse(str(error)) from error
     except click.UsageError as error:
         # Without a command there is help, not an error.
         if type(error).__name__ == "NoArgsIsHelpError":
             raise
         hint = f" (see: {error.ctx.command_path} --help)" if error.ctx else ""
-        raise WrongUse(" ".join(error.format_message().split()) + hint) from error
+        raise _WrongUse(" ".join(error.format_message().split()) + hint) from error
 
 
 @contextmanager
@@ -133,22 +141,11 @@ def _as_click_error(error: Exception) -> click.ClickException:
 # --- messages ----------------------------------------------------------------------------------
 
 
-def one_line(error: BaseException) -> str:
-    """The message of an error in one line; its type if it has none."""
-    return " ".join(str(error).split()) or type(error).__name__
-
-
 def with_commands(text: str) -> str:
     """Text about a script, with commands in place of the Python functions that it names."""
     for function, command in _COMMANDS.items():
         text = text.replace(function, command)
     return text
-
-
-def reason(error: BaseException) -> str:
-    """The message in one line, without what PyMeshLab puts before it, and without markup."""
-    text = plain(_PRELUDE.split(str(error))[-1])
-    return " ".join(text.split()) or type(error).__name__
 
 
 def failure_of(
@@ -223,7 +220,7 @@ def stopped_by_signals(ctx: click.Context) -> Iterator[None]:
 
     def stop(number: int, frame: FrameType | None) -> None:
         caught.append(number)
-        for watched in _WATCHED:
+        for watched in ENDING:
             if signal.getsignal(watched) is stop:
                 signal.signal(watched, signal.SIG_DFL)
         handle = signal.getsignal(signal.SIGINT)
@@ -232,7 +229,7 @@ def stopped_by_signals(ctx: click.Context) -> Iterator[None]:
         handle(signal.SIGINT, frame)
 
     # What is ignored stays ignored: nohup does that to SIGHUP.
-    with _handled_by(stop, lambda handler: handler not in (signal.SIG_IGN, None)):
+    with handled_by(stop, lambda handler: handler not in (signal.SIG_IGN, None)):
         try:
             yield
         except (KeyboardInterrupt, click.Abort):
@@ -242,29 +239,3 @@ def stopped_by_signals(ctx: click.Context) -> Iterator[None]:
             with suppress(OSError):
                 click.echo(f"Error: terminated by {signal.Signals(caught[0]).name}", err=True)
             ctx.exit(SIGNAL_EXIT + caught[0])
-
-
-@contextmanager
-def killable() -> Iterator[None]:
-    """Inside, SIGTERM and SIGHUP end the process at once: no handler runs during native code.
-
-    Only for times in which no output file is half written.
-    """
-    with _handled_by(signal.SIG_DFL, callable):
-        yield
-
-
-@contextmanager
-def _handled_by(handler: object, is_replaced: Callable[[object], bool]) -> Iterator[None]:
-    """Replace the handlers of the signals inside, where `is_replaced` is true of the old one."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = {number: old for number in _WATCHED if is_replaced(old := signal.getsignal(number))}
-    for number in before:
-        signal.signal(number, handler)  # type: ignore[arg-type]
-    try:
-        yield
-    finally:
-        for number, old in before.items():
-            signal.signal(number, old)

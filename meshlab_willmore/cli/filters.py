@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .errors import WrongUse, debug_option
+from ..messages import WrongUse
+from .errors import debug_option
 from .text import in_columns
 
 if TYPE_CHECKING:

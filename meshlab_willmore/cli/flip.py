@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..mesh_files import loading
+from ..mesh_files.paths import check_output, only_input
+from ..messages import reason
 from ..options import FILTER
-from . import loading, progress
+from . import progress
 from .arguments import SeveralParts, check_flip_options, flip_options, force_option, mask_option
-from .errors import debug_option, reason
-from .paths import check_output, only_input
+from .errors import debug_option
 from .text import flip_results
 
 if TYPE_CHECKING:
@@ -39,7 +41,7 @@ def command(source: str, target: Path, parts: tuple[str, ...], force: bool, **gi
     Vertices never move. The ending of OUT determines the format. OUT is written atomically. Notes
     say what was lost in loading or saving.
     """
-    from .saving import SaveOptions, save
+    from ..mesh_files.saving import SaveOptions, save
 
     chosen = {name: value for name, value in given.items() if value is not None}
     check_flip_options(chosen)

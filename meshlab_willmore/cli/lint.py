@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 
 import click
 
-from .errors import WrongUse, debug_option, with_commands
-from .paths import STANDARD_STREAM, matches, read_script, refuse_folder
+from ..mesh_files.paths import matches, refuse_folder
+from ..messages import WrongUse
+from .errors import debug_option, with_commands
+from .scripts import STANDARD_STREAM, read_script
 from .text import counted
 
 if TYPE_CHECKING:
@@ -38,7 +40,7 @@ def command(scripts: tuple[str, ...]) -> None:
     if problems and not paths:
         raise problems[0]
     for problem in problems:
-        problem.show()
+        click.echo(f"Error: {problem}", err=True)
     failed = len(problems) + sum(not _is_ok(path) for path in paths)
     if failed:
         click.get_current_context().exit(1)

@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from . import loading, progress
+from ..mesh_files import loading
+from ..mesh_files.paths import find_inputs
+from ..messages import WrongUse, one_line, reason
+from . import progress
 from .arguments import json_option
-from .errors import WrongUse, debug_option, failure_of, is_debug, one_line, reason, stops_all
-from .paths import find_inputs
+from .errors import debug_option, failure_of, is_debug, stops_all
 from .text import fitted, for_json, how_many_failed, table
 
 if TYPE_CHECKING:

@@ -11,19 +11,21 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
-from . import loading, paths, progress, runlog
+from ..batch.jobs import Job, plan
+from ..mesh_files import loading
+from ..mesh_files.paths import PLACEHOLDERS, Output, find_inputs
+from ..messages import WrongUse, one_line
+from ..signals import killable
+from . import progress, runlog
 from .arguments import LAYER_HELP, force_option, mask_option, take_outputs
 from .errors import (
-    WrongUse,
     debug_option,
     failure_of,
     is_debug,
-    killable,
-    one_line,
     stops_all,
 )
-from .paths import Job, Output, Script
 from .runlog import log
+from .scripts import Script, read_script
 from .text import counted, how_many_failed, step_results
 
 if TYPE_CHECKING:
@@ -52,7 +54,7 @@ Examples:
   meshlab-willmore run makes-a-sphere.mlx -o sphere.ply
   meshlab-willmore run clean.mlx -i scan.ply -o clean.ply --dry-run
 """
-_PLACEHOLDERS = ", ".join(f"{{{name}}} ({what})" for name, what in paths.PLACEHOLDERS.items())
+_PLACEHOLDERS = ", ".join(f"{{{name}}} ({what})" for name, what in PLACEHOLDERS.items())
 
 
 class RunOptions(NamedTuple):
@@ -176,7 +178,7 @@ def command(
     """
     source = _script_of(script, also)
     options = RunOptions(source.name, _steps(source, settings), force, stop, dry_run, set())
-    jobs = paths.plan(paths.find_inputs(inputs), outputs, layers, force)
+    jobs = plan(find_inputs(inputs), outputs, layers, force)
     runlog.check(log_file, [Path(source.name), *(file for job in jobs for file in job.files)])
     with runlog.opened(None if dry_run else log_file, source.name):
         _run_all(options, jobs)
@@ -186,7 +188,7 @@ def _script_of(script: str | None, also: str | None) -> Script:
     if (script is None) == (also is None):
         problem = "there is no script; name one" if script is None else "name the script once"
         raise WrongUse(f"{problem}, such as: run clean.mlx -i scan.ply -o clean.ply")
-    return paths.read_script(script or also or "")
+    return read_script(script or also or "")
 
 
 def _steps(source: Script, settings: Sequence[str]) -> tuple[Step, ...]:
@@ -294,7 +296,7 @@ def play(ms: pymeshlab.MeshSet, calls: Sequence[Call], source: str, label: str) 
 
 def _save(ms: pymeshlab.MeshSet, job: Job, options: RunOptions) -> str:
     """Save the layers of a job's outputs; returns which files were written."""
-    from .saving import SaveOptions, save
+    from ..mesh_files.saving import SaveOptions, save
 
     if not job.outputs:
         return "not saved (no -o)"

@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
 from ..files import is_stream, opened_stream, place_of, refuse_special, writable_folder
-from .errors import WrongUse
-from .paths import STANDARD_STREAM
+from ..messages import WrongUse
+from .scripts import STANDARD_STREAM
 from .text import in_line
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from .errors import WrongUse
+from ..messages import WrongUse
 
 if TYPE_CHECKING:
     from ..meshset.catalogue import FilterInfo, ParamInfo

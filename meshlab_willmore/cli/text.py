@@ -10,8 +10,6 @@ import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-import click
-
 if TYPE_CHECKING:
     from ..meshset.play import Played
 
@@ -24,18 +22,6 @@ _LEAST_OF_NAME = 12
 _LONGEST_VALUE = 60
 _DIGITS = 6
 _FLIP_RESULTS = ("flips", "willmore_before", "willmore_after")
-
-# Where click keeps the notes of a call.
-_NOTES = "notes"
-
-
-def note(text: str) -> None:
-    """Print a note on the standard error, the same one only once in a command."""
-    ctx = click.get_current_context(silent=True)
-    printed = ctx.meta.setdefault(_NOTES, set()) if ctx else set()
-    if text not in printed:
-        printed.add(text)
-        click.echo(f"Note: {text}", err=True)
 
 
 # --- tables ------------------------------------------------------------------------------------

@@ -9,6 +9,7 @@ import pytest
 from meshlab_willmore.cli import flip, main
 from meshlab_willmore.cli import run as run_module
 from meshlab_willmore.cli.arguments import GONE, take_outputs
+from meshlab_willmore.messages import WrongUse
 
 from .conftest import TAUBIN, call, cube_file, listing, loaded, script_file
 
@@ -107,7 +108,7 @@ def test_outputs_with_their_masks_and_layers(line, outputs, rest):
     ],
 )
 def test_wrong_and_ambiguous_words_are_errors(line, problem):
-    with pytest.raises(click.ClickException, match=problem):
+    with pytest.raises((WrongUse, click.ClickException), match=problem):
         taken(line)
 
 

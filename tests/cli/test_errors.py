@@ -10,8 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from meshlab_willmore.cli import compare_row, saving
+from meshlab_willmore.cli import compare_row
 from meshlab_willmore.machine import MachineWarning, RoomError, SettingError
+from meshlab_willmore.mesh_files import saving
 from meshlab_willmore.meshset import flips
 from meshlab_willmore.meshset.play import play as play_steps
 
@@ -60,7 +61,7 @@ def test_measure_blames_no_mesh(monkeypatch):
     def fail(_):
         raise FULL
 
-    monkeypatch.setattr("meshlab_willmore.cli.loading.loaded", fail)
+    monkeypatch.setattr("meshlab_willmore.mesh_files.loading.loaded", fail)
     result = call("measure", cube_file())
     assert (result.exit_code, result.stderr) == (1, f"Error: {FULL} (cube.ply is left out)\n")
 
@@ -94,7 +95,8 @@ POSIX = pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
 SLOW = """
 import sys, time
 from pathlib import Path
-from meshlab_willmore.cli import main, saving
+from meshlab_willmore.cli import main
+from meshlab_willmore.mesh_files import saving
 def stand_still(source, target):
     Path("ready").touch()
     time.sleep(60)

@@ -89,7 +89,7 @@ def test_unwritable_folder_is_found_before_the_run(run, no_step, monkeypatch, dr
         raise PermissionError(13, "Permission denied")
 
     Path("closed").mkdir()
-    monkeypatch.setattr("meshlab_willmore.cli.paths.writable_folder", lambda _: None)
+    monkeypatch.setattr("meshlab_willmore.mesh_files.paths.writable_folder", lambda _: None)
     monkeypatch.setattr("meshlab_willmore.files.TemporaryFile", refuse)
     result = call(*run, "--log", "closed/log.txt", *dry)
     assert result.exit_code == 1

@@ -18,9 +18,9 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..messages import note, reason
+from ..signals import killable
 from . import formats, losses
-from .errors import killable, reason
-from .text import note
 
 if TYPE_CHECKING:
     import pymeshlab

@@ -1,4 +1,4 @@
-"""The files named on a command line: inputs, outputs, scripts, and the jobs of a `run`."""
+"""The names of mesh files: inputs, patterns, and outputs with placeholders; each is checked."""
 
 from __future__ import annotations
 
@@ -8,17 +8,13 @@ import glob
 import os
 import re
 import string
-import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from ..files import UnwritableError, is_stream, place_of, refuse_special, special, writable_folder
+from ..messages import WrongUse
 from . import formats
-from .errors import WrongUse
-
-if TYPE_CHECKING:
-    from ..meshset.check import Findings
 
 PLACEHOLDERS = {
     "name": "the input's name without its ending",
@@ -26,15 +22,12 @@ PLACEHOLDERS = {
     "dir": "the input's folder",
     "index": "1, 2, 3, ...",
 }
-STANDARD_STREAM = "-"
 
 # How many similar names of a folder an error lists, and how much of a long name it shows.
 _SIMILAR = 3
 _SHOWN = 40
 # Up to two digits: a width, filled with blanks or zeros.
 _WIDTH = re.compile(r"0?\d{0,2}d?")
-# Names with the ending of a script, the standard input, and what a shell puts for ``<(...)``.
-_SCRIPT = re.compile(r".*\.mlx|/dev/stdin|/dev/fd/\d+|/proc/self/fd/\d+", re.DOTALL)
 
 
 # --- inputs ------------------------------------------------------------------------------------
@@ -265,135 +258,3 @@ def check_place(
     # A link that leads nowhere exists as well.
     if os.path.lexists(path) and not force:
         raise WrongUse(f"{path} already exists; use --force to overwrite")
-
-
-# --- jobs of a run -----------------------------------------------------------------------------
-
-
-class Job(NamedTuple):
-    """One run of the script on its input, or on several as layers; why it can't be read.
-
-    One output is for the layer that is current in the end, several are for the first layers.
-    """
-
-    inputs: tuple[Path, ...]
-    outputs: tuple[Output, ...]
-    problem: WrongUse | None = None
-
-    @property
-    def files(self) -> tuple[Path, ...]:
-        """All files that are read or written, as far as their names are known."""
-        outputs = [output.path for output in self.outputs]
-        materials = (path.with_name(f"{path.name}.mtl") for path in outputs)
-        return (*self.inputs, *outputs, *materials)
-
-    @property
-    def name(self) -> str:
-        """What messages call it."""
-        return ", ".join(map(str, self.inputs)) or "no input"
-
-
-def plan(
-    inputs: Sequence[Input], outputs: Sequence[Output], layers: bool, force: bool
-) -> list[Job]:
-    """Divide inputs and outputs into jobs, and check every output as `check_output` does.
-
-    An input that can't be read has a job without outputs; the others go on. Raises `WrongUse` if
-    inputs and outputs don't fit together, or no job is left.
-    """
-    jobs = list(_jobs(inputs, outputs, layers))
-    _check_distinct(jobs, [path for path, _ in inputs] if len(jobs) > 1 else ())
-    for job in jobs:
-        for output in job.outputs:
-            check_output(output.path, force)
-    return jobs
-
-
-def _jobs(inputs: Sequence[Input], outputs: Sequence[Output], layers: bool) -> Iterator[Job]:
-    if not inputs:
-        for output in outputs:
-            if output.has_placeholder:
-                raise WrongUse(f"-o {output.name}: there is no input to take a name from")
-        yield Job((), tuple(output.of(Path(), 1) for output in outputs))
-    elif layers or len(inputs) == 1:
-        for _, problem in inputs:
-            if problem is not None:
-                raise problem
-        paths = tuple(path for path, _ in inputs)
-        yield Job(paths, tuple(output.of(paths[0], 1) for output in outputs))
-    elif len(outputs) > 1 or (outputs and not outputs[0].has_placeholder):
-        raise WrongUse(
-            f"{len(inputs)} inputs need one -o with a placeholder, such as "
-            "-o '{name}_flipped.ply'; with --layers they become the layers of one set"
-        )
-    else:
-        index = 0
-        for path, problem in inputs:
-            # A file keeps its number, whatever is wrong with those before it.
-            index += not isinstance(problem, NoMatchError)
-            filled = () if problem else tuple(output.of(path, index) for output in outputs)
-            yield Job((path,), filled, problem)
-
-
-def _check_distinct(jobs: Iterable[Job], inputs: Iterable[Path]) -> None:
-    """Raise `WrongUse` if two outputs have one name, or one that of an input yet to be read.
-
-    An input may be replaced by its own result.
-    """
-    readers = {_identity(path): path for path in inputs}
-    writers: dict[str, Path] = {}
-    for job in jobs:
-        source = job.inputs[0] if job.inputs else Path("the script's own mesh")
-        for output in job.outputs:
-            key = _identity(output.path)
-            if writers.get(key) == source:
-                raise WrongUse(f"{output.path} is named twice as an output; name it once")
-            if key in writers:
-                raise WrongUse(
-                    f"{writers[key]} and {source} would both be written to {output.path}; "
-                    "use {index} or {dir} in the name"
-                )
-            if readers.get(key, source) != source:
-                raise WrongUse(f"the result of {source} would replace the input {output.path}")
-            writers[key] = source
-
-
-def _identity(path: Path) -> str:
-    return os.path.normcase(os.path.realpath(path))
-
-
-# --- scripts -----------------------------------------------------------------------------------
-
-
-class Script(NamedTuple):
-    """The text of a filter script, which a pipe gives only once, and what messages call it."""
-
-    name: str
-    data: bytes
-
-    def examined(self) -> Findings:
-        """All that a check finds in it."""
-        from ..script import examined_bytes
-
-        return examined_bytes(self.data, self.name)
-
-
-def is_script(word: str) -> bool:
-    """Whether a word of the command line names a script: by its ending, or as a shell's pipe."""
-    return word == STANDARD_STREAM or bool(_SCRIPT.fullmatch(word.lower()))
-
-
-def read_script(name: str) -> Script:
-    """The script of a file or pipe; ``-`` is the standard input.
-
-    Raises `WrongUse` if there is no such file, `ScriptError` if it can't be read.
-    """
-    from ..mlx.decode import LARGEST, bytes_of
-
-    if name == STANDARD_STREAM:
-        # Python has no such stream where it is closed.
-        return Script("standard input", sys.stdin.buffer.read(LARGEST + 1) if sys.stdin else b"")
-    refuse_folder(Path(name), "script", "clean.mlx")
-    if not os.path.exists(name):
-        raise WrongUse(f"there is no filter script {name}")
-    return Script(name, bytes_of(Path(name)))

@@ -16,10 +16,9 @@ from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..files import folder_beside, refuse_special, replace
+from ..messages import note, reason
 from . import formats
-from .errors import reason
 from .losses import ply_header
-from .text import note
 
 if TYPE_CHECKING:
     import pymeshlab

@@ -6,9 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshlab_willmore.cli import loading
-
-from .conftest import ONE_PIXEL, SAMPLES, call, cube_file, square_with_textures
+from meshlab_willmore.mesh_files import loading
+from tests.cli.conftest import ONE_PIXEL, SAMPLES, call, cube_file, square_with_textures
 
 # PyMeshLab prints most of it: tests with this fixture run first (see tests/conftest.py).
 pytestmark = pytest.mark.usefixtures("capfd")

@@ -7,17 +7,16 @@ import sys
 from contextlib import contextmanager
 from pathlib import Path
 
-import click
 import numpy as np
 import pymeshlab
 import pytest
 
-from meshlab_willmore.cli import saving
-from meshlab_willmore.cli.paths import check_place
-from meshlab_willmore.cli.saving import SaveOptions, save
+from meshlab_willmore.mesh_files import saving
+from meshlab_willmore.mesh_files.paths import check_place
+from meshlab_willmore.mesh_files.saving import SaveOptions, save
+from meshlab_willmore.messages import WrongUse
 from tests import meshes
-
-from .conftest import SAMPLES, call, cube_file, listing, loaded, same_mesh, script_file
+from tests.cli.conftest import SAMPLES, call, cube_file, listing, loaded, same_mesh, script_file
 
 TEXTURED = SAMPLES / "bunny10k_textured.obj"
 IMAGE = "TextureDouble_A.png"
@@ -292,7 +291,7 @@ def test_link_stays_and_points_to_the_new_mesh(tmp_path):
 def test_dangling_link_exists(tmp_path):
     link = tmp_path / "a.ply"
     link.symlink_to("real.ply")
-    with pytest.raises(click.ClickException, match="already exists; use --force"):
+    with pytest.raises(WrongUse, match="already exists; use --force"):
         check_place(link, force=False)
     with pytest.raises(OSError, match="already exists; use --force to overwrite"):
         save(cube_set(), link, SaveOptions())
@@ -306,7 +305,7 @@ def test_dangling_link_exists(tmp_path):
 def test_link_into_a_missing_folder(tmp_path):
     link = tmp_path / "a.ply"
     link.symlink_to("no/real.ply")
-    with pytest.raises(click.ClickException, match=r"cannot write .*a\.ply: the folder .*no does"):
+    with pytest.raises(WrongUse, match=r"cannot write .*a\.ply: the folder .*no does"):
         check_place(link, force=True)
 
 
@@ -321,7 +320,7 @@ def test_only_files_are_replaced(kind, link):
     Path(f"to-{kind}").symlink_to(kind)
     before = {name: os.lstat(name).st_mode for name in listing()}
     path = Path(f"{link}{kind}")
-    with pytest.raises(click.ClickException, match=r"is a folder|cannot write .* a (pipe|socket)"):
+    with pytest.raises(WrongUse, match=r"is a folder|cannot write .* a (pipe|socket)"):
         check_place(path, force=True)
     with pytest.raises(OSError, match=r"cannot write .* a (pipe|socket|folder), and only files"):
         save(cube_set(), path, SaveOptions(force=True))

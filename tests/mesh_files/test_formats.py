@@ -6,11 +6,10 @@ import numpy as np
 import pymeshlab
 import pytest
 
-from meshlab_willmore.cli import formats
-from meshlab_willmore.cli.saving import SaveOptions, save
+from meshlab_willmore.mesh_files import formats
+from meshlab_willmore.mesh_files.saving import SaveOptions, save
 from tests import meshes
-
-from .conftest import ONE_PIXEL, SAMPLES, square_with_textures
+from tests.cli.conftest import ONE_PIXEL, SAMPLES, square_with_textures
 
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
 FACES = np.array([[0, 1, 2], [0, 2, 3]])

@@ -11,11 +11,10 @@ from pathlib import Path
 
 import pytest
 
-from meshlab_willmore.cli import loading, paths
-from meshlab_willmore.cli.errors import WrongUse
-from meshlab_willmore.cli.paths import check_place
-
-from .conftest import (
+from meshlab_willmore.mesh_files import loading, paths
+from meshlab_willmore.mesh_files.paths import check_place
+from meshlab_willmore.messages import WrongUse
+from tests.cli.conftest import (
     FLIP,
     ONE_PIXEL,
     SAMPLES,

@@ -1,0 +1,103 @@
+"""The jobs of a batch: which inputs are read together, and where their results are written."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from ..mesh_files.paths import Input, NoMatchError, Output, check_output
+from ..messages import WrongUse
+
+
+class Job(NamedTuple):
+    """One run of the script on its input, or on several as layers; why it can't be read.
+
+    One output is for the layer that is current in the end, several are for the first layers.
+    """
+
+    inputs: tuple[Path, ...]
+    outputs: tuple[Output, ...]
+    problem: WrongUse | None = None
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """All files that are read or written, as far as their names are known."""
+        outputs = [output.path for output in self.outputs]
+        materials = (path.with_name(f"{path.name}.mtl") for path in outputs)
+        return (*self.inputs, *outputs, *materials)
+
+    @property
+    def name(self) -> str:
+        """What messages call it."""
+        return ", ".join(map(str, self.inputs)) or "no input"
+
+
+def plan(
+    inputs: Sequence[Input], outputs: Sequence[Output], layers: bool, force: bool
+) -> list[Job]:
+    """Divide inputs and outputs into jobs, and check every output as `check_output` does.
+
+    An input that can't be read has a job without outputs; the others go on. Raises `WrongUse` if
+    inputs and outputs don't fit together, or no job is left.
+    """
+    jobs = list(_jobs(inputs, outputs, layers))
+    _check_distinct(jobs, [path for path, _ in inputs] if len(jobs) > 1 else ())
+    for job in jobs:
+        for output in job.outputs:
+            check_output(output.path, force)
+    return jobs
+
+
+def _jobs(inputs: Sequence[Input], outputs: Sequence[Output], layers: bool) -> Iterator[Job]:
+    if not inputs:
+        for output in outputs:
+            if output.has_placeholder:
+                raise WrongUse(f"-o {output.name}: there is no input to take a name from")
+        yield Job((), tuple(output.of(Path(), 1) for output in outputs))
+    elif layers or len(inputs) == 1:
+        for _, problem in inputs:
+            if problem is not None:
+                raise problem
+        paths = tuple(path for path, _ in inputs)
+        yield Job(paths, tuple(output.of(paths[0], 1) for output in outputs))
+    elif len(outputs) > 1 or (outputs and not outputs[0].has_placeholder):
+        raise WrongUse(
+            f"{len(inputs)} inputs need one -o with a placeholder, such as "
+            "-o '{name}_flipped.ply'; with --layers they become the layers of one set"
+        )
+    else:
+        index = 0
+        for path, problem in inputs:
+            # A file keeps its number, whatever is wrong with those before it.
+            index += not isinstance(problem, NoMatchError)
+            filled = () if problem else tuple(output.of(path, index) for output in outputs)
+            yield Job((path,), filled, problem)
+
+
+def _check_distinct(jobs: Iterable[Job], inputs: Iterable[Path]) -> None:
+    """Raise `WrongUse` if two outputs have one name, or one that of an input yet to be read.
+
+    An input may be replaced by its own result.
+    """
+    readers = {_identity(path): path for path in inputs}
+    writers: dict[str, Path] = {}
+    for job in jobs:
+        source = job.inputs[0] if job.inputs else Path("the script's own mesh")
+        for output in job.outputs:
+            key = _identity(output.path)
+            if writers.get(key) == source:
+                raise WrongUse(f"{output.path} is named twice as an output; name it once")
+            if key in writers:
+                raise WrongUse(
+                    f"{writers[key]} and {source} would both be written to {output.path}; "
+                    "use {index} or {dir} in the name"
+                )
+            if readers.get(key, source) != source:
+                raise WrongUse(f"the result of {source} would replace the input {output.path}")
+            writers[key] = source
+
+
+def _identity(path: Path) -> str:
+    return os.path.normcase(os.path.realpath(path))

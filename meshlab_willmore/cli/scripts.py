@@ -1,0 +1,54 @@
+"""The filter scripts named on a command line, also in pipes."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from ..mesh_files.paths import refuse_folder
+from ..messages import WrongUse
+
+if TYPE_CHECKING:
+    from ..meshset.check import Findings
+
+STANDARD_STREAM = "-"
+
+# Names with the ending of a script, the standard input, and what a shell puts for ``<(...)``.
+_SCRIPT = re.compile(r".*\.mlx|/dev/stdin|/dev/fd/\d+|/proc/self/fd/\d+", re.DOTALL)
+
+
+class Script(NamedTuple):
+    """The text of a filter script, which a pipe gives only once, and what messages call it."""
+
+    name: str
+    data: bytes
+
+    def examined(self) -> Findings:
+        """All that a check finds in it."""
+        from ..script import examined_bytes
+
+        return examined_bytes(self.data, self.name)
+
+
+def is_script(word: str) -> bool:
+    """Whether a word of the command line names a script: by its ending, or as a shell's pipe."""
+    return word == STANDARD_STREAM or bool(_SCRIPT.fullmatch(word.lower()))
+
+
+def read_script(name: str) -> Script:
+    """The script of a file or pipe; ``-`` is the standard input.
+
+    Raises `WrongUse` if there is no such file, `ScriptError` if it can't be read.
+    """
+    from ..mlx.decode import LARGEST, bytes_of
+
+    if name == STANDARD_STREAM:
+        # Python has no such stream where it is closed.
+        return Script("standard input", sys.stdin.buffer.read(LARGEST + 1) if sys.stdin else b"")
+    refuse_folder(Path(name), "script", "clean.mlx")
+    if not os.path.exists(name):
+        raise WrongUse(f"there is no filter script {name}")
+    return Script(name, bytes_of(Path(name)))

@@ -9,7 +9,7 @@ import shutil
 import stat
 import tempfile
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from tempfile import TemporaryFile
 from typing import BinaryIO
@@ -25,6 +25,9 @@ _STREAMS = ("a pipe", "a device")
 # Names of this process' own descriptors. Opened again, a file behind them would be written from its
 # beginning.
 _OWN = re.compile(r"/dev/(?:fd/(?P<number>\d+)|stdout|(?P<error>stderr))")
+
+# Ends the names of hidden folders beside outputs: what a killed process left can be told by it.
+draft_mark = ""
 
 # A file name takes 255 bytes; a letter up to four.
 _LONGEST_STEM = 40
@@ -64,6 +67,14 @@ def place_of(path: Path) -> Path:
     return Path(os.path.realpath(path)) if path.is_symlink() else path
 
 
+def remove_drafts(folder: Path, mark: str) -> None:
+    """Remove hidden folders with the mark of a process that was killed while it wrote."""
+    with suppress(OSError):
+        for entry in os.scandir(folder):
+            if entry.name.startswith(".") and entry.name.endswith(mark):
+                shutil.rmtree(entry.path, ignore_errors=True)
+
+
 @contextmanager
 def folder_beside(path: Path) -> Iterator[Path]:
     """A hidden folder in the folder of `path`, which is removed at the end.
@@ -74,7 +85,7 @@ def folder_beside(path: Path) -> Iterator[Path]:
         Naming `path`.
     """
     try:
-        name = tempfile.mkdtemp(prefix=f".{path.stem[:_LONGEST_STEM]}.", dir=path.parent)
+        name = tempfile.mkdtemp(draft_mark, f".{path.stem[:_LONGEST_STEM]}.", path.parent)
     except OSError as error:
         raise UnwritableError(path, error.strerror) from error
     try:

@@ -70,6 +70,13 @@ def without_library(error: ImportError) -> str | None:
     )
 
 
+def core_count() -> int:
+    """How many cores this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
 def fault_of(error: BaseException | None) -> MachineError | None:
     """The fault of the machine that an error comes from, None if there is none."""
     while error is not None:
@@ -77,6 +84,11 @@ def fault_of(error: BaseException | None) -> MachineError | None:
             return error
         error = error.__cause__
     return None
+
+
+def stops_all(error: BaseException) -> bool:
+    """Whether all other inputs would fail in the same way: a library or a setting is wrong."""
+    return isinstance(fault_of(error) or error, ImportError)
 
 
 def unset(*names: str) -> str:

@@ -29,6 +29,11 @@ def reason(error: BaseException) -> str:
     return " ".join(text.split()) or type(error).__name__
 
 
+def counted(number: int, thing: str) -> str:
+    """A number with its noun: 1 step, 2 steps."""
+    return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
+
+
 def _print(text: str) -> None:
     print(f"Note: {text}", file=sys.stderr)
 

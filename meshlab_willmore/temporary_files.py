@@ -18,13 +18,15 @@ _OTHER_FOLDER = f"export {TEMPORARY}=/a/folder/with/room"
 
 
 @contextmanager
-def temporary_folder(needed: int = 0) -> Iterator[Path]:
+def temporary_folder(needed: int = 0, mark: str = "") -> Iterator[Path]:
     """Create a folder among the temporary files, and remove it in the end.
 
     Parameters
     ----------
     needed : int
         How many bytes will be written into it, about.
+    mark : str
+        Ends the name of the folder.
 
     Raises
     ------
@@ -33,7 +35,7 @@ def temporary_folder(needed: int = 0) -> Iterator[Path]:
         which folder, how much is needed and how much is free.
     """
     try:
-        name = tempfile.mkdtemp(prefix="meshlab_willmore_")
+        name = tempfile.mkdtemp(mark, "meshlab_willmore_")
     except OSError as error:
         raise RoomError(str(_no_folder(error))) from error
     folder = Path(name)

@@ -36,7 +36,7 @@ KEPT = 16
 WARM_UP = """
 import contextlib, pathlib
 from meshlab_willmore.mesh.jit import cache_folder
-from meshlab_willmore.mesh.parallel import core_count
+from meshlab_willmore.machine import core_count
 from meshlab_willmore.warmup import warm_up
 mark = pathlib.Path(cache_folder()).parent / "warm"
 lock = open(mark.with_name("lock"), "w")

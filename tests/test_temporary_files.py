@@ -53,7 +53,7 @@ def test_the_folder_is_named_when_any_writer_runs_out_of_room(monkeypatch, tmp_p
 
 
 def test_no_place_at_all_for_temporary_files(monkeypatch):
-    def fail(**_given):
+    def fail(*_, **__):
         raise FileNotFoundError(2, "No usable temporary directory found in ['/tmp']")
 
     monkeypatch.setattr(tempfile, "mkdtemp", fail)

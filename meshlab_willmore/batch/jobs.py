@@ -39,15 +39,23 @@ def plan(
 ) -> list[Job]:
     """Divide inputs and outputs into jobs, and check every output as `check_output` does.
 
-    An input that can't be read has a job without outputs; the others go on. Raises `WrongUse` if
+    Folders with a placeholder in their name are made. An input that can't be read has a job without
+    outputs; the others go on. Raises `WrongUse` if
     inputs and outputs don't fit together, or no job is left.
     """
     jobs = list(_jobs(inputs, outputs, layers))
     _check_distinct(jobs, [path for path, _ in inputs] if len(jobs) > 1 else ())
     for job in jobs:
-        for output in job.outputs:
+        for output, pattern in zip(job.outputs, outputs, strict=False):
+            if "{" in os.path.dirname(pattern.name) and _fixed_part(pattern.name).is_dir():
+                output.path.parent.mkdir(parents=True, exist_ok=True)
             check_output(output.path, force)
     return jobs
+
+
+def _fixed_part(pattern: str) -> Path:
+    """The folder that is the same for all inputs."""
+    return Path(os.path.dirname(pattern.partition("{")[0]) or ".")
 
 
 def _jobs(inputs: Sequence[Input], outputs: Sequence[Output], layers: bool) -> Iterator[Job]:

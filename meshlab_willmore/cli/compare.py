@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from .. import numba_settings
+from ..batch.steplog import for_json
 from ..mesh_files.paths import only_input
 from ..messages import WrongUse
 from ..options import ALLOWLOSS, ENERGY, SEARCH, SELECTION, Option
@@ -20,7 +21,7 @@ from . import compare_row, progress
 from .arguments import check_flip_options, flip_options, json_option
 from .compare_row import Comparison, Outcome, check_reference
 from .errors import debug_option, is_debug
-from .text import for_json, table
+from .text import table
 
 if TYPE_CHECKING:
     from ..compare.rows import Row

@@ -20,10 +20,10 @@ import click
 
 from .. import machine, numba_settings, temporary_files
 from .._version import __version__
+from ..messages import counted
 from . import progress
 from .arguments import json_option
 from .errors import debug_option
-from .text import counted
 
 EXAMPLES = """\b
 Examples:

@@ -159,11 +159,6 @@ def failure_of(
     return text if name in text else f"{name}: {text}"
 
 
-def stops_all(error: Exception) -> bool:
-    """Whether all other inputs would fail in the same way: a library or a setting is wrong."""
-    return isinstance(machine.fault_of(error) or error, ImportError)
-
-
 def is_debug() -> bool:
     """Whether errors are shown with their traceback."""
     return bool(click.get_current_context().meta.get("debug"))

@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING
 import click
 
 from ..mesh_files.paths import matches, refuse_folder
-from ..messages import WrongUse
+from ..messages import WrongUse, counted
 from .errors import debug_option, with_commands
 from .scripts import STANDARD_STREAM, read_script
-from .text import counted
 
 if TYPE_CHECKING:
     from ..meshset.check import Findings

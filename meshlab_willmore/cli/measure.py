@@ -9,13 +9,15 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..batch.steplog import for_json
+from ..machine import stops_all
 from ..mesh_files import loading
 from ..mesh_files.paths import find_inputs
 from ..messages import WrongUse, one_line, reason
 from . import progress
 from .arguments import json_option
-from .errors import debug_option, failure_of, is_debug, stops_all
-from .text import fitted, for_json, how_many_failed, table
+from .errors import debug_option, failure_of, is_debug
+from .text import fitted, how_many_failed, table
 
 if TYPE_CHECKING:
     import pymeshlab

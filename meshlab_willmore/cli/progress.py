@@ -130,12 +130,12 @@ def shown(label: str, total: int = 0) -> Iterator[Status]:
             for name in ("stdout", "stderr"):
                 stack.callback(setattr, sys, name, getattr(sys, name))
                 setattr(sys, name, _Above(getattr(sys, name), screen))
-            stack.enter_context(_repeated(screen.draw, SECONDS_ON_A_TERMINAL))
+            stack.enter_context(repeated(screen.draw, SECONDS_ON_A_TERMINAL))
             if total:
                 screen.draw()
         else:
             stack.enter_context(
-                _repeated(lambda: print(status.sentence(), file=own, flush=True), SECONDS_IN_A_LOG)
+                repeated(lambda: print(status.sentence(), file=own, flush=True), SECONDS_IN_A_LOG)
             )
         yield status
         status.end()
@@ -247,7 +247,7 @@ def _duplicate(stream: Any) -> Iterator[TextIO]:
 
 
 @contextmanager
-def _repeated(action: Callable[[], object], seconds: float) -> Iterator[None]:
+def repeated(action: Callable[[], object], seconds: float) -> Iterator[None]:
     """Call `action` every so many seconds inside, in a thread."""
     ended = threading.Event()
 

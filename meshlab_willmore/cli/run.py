@@ -4,33 +4,31 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Sequence
-from contextlib import ExitStack, suppress
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
+from ..batch import steplog
 from ..batch.jobs import Job, plan
-from ..mesh_files import loading
+from ..batch.steplog import log
 from ..mesh_files.paths import PLACEHOLDERS, Output, find_inputs
-from ..messages import WrongUse, one_line
+from ..messages import WrongUse, counted, one_line
 from ..signals import killable
 from . import progress, runlog
 from .arguments import LAYER_HELP, force_option, mask_option, take_outputs
-from .errors import (
-    debug_option,
-    failure_of,
-    is_debug,
-    stops_all,
-)
-from .runlog import log
+from .batch import batch_options, is_batch, is_resumed, json_file_option, run_batch
+from .errors import debug_option
 from .scripts import Script, read_script
-from .text import counted, how_many_failed, step_results
+from .text import saved_text, step_results
 
 if TYPE_CHECKING:
     import pymeshlab
 
+    from ..batch.records import Result
     from ..meshset.check import Call
     from ..meshset.play import Played
     from ..mlx.steps import Step
@@ -63,7 +61,6 @@ class RunOptions(NamedTuple):
     source: str
     steps: tuple[Step, ...]
     force: bool
-    stop: bool
     dry_run: bool
     # The files that this run has written; changed in place.
     written: set[Path]
@@ -145,7 +142,8 @@ def _only_once(_: click.Context, option: click.Parameter, values: Sequence[str])
     help="Load all inputs as layers of one set, for filters of two meshes.",
 )
 @force_option
-@click.option("--stop", is_flag=True, help="Stop at the first input that fails.")
+@json_file_option
+@batch_options
 @click.option("--dry-run", is_flag=True, help="Check everything, read the inputs, write nothing.")
 @debug_option
 @click.pass_obj
@@ -158,15 +156,15 @@ def command(
     settings: Sequence[str],
     layers: bool,
     force: bool,
-    stop: bool,
     dry_run: bool,
 ) -> None:
     """Run a MeshLab filter script (.mlx) on meshes, and save the results.
 
     The whole script is checked before its first step. It can come from a pipe; - is the standard
-    input. Output files are written atomically. Several inputs run one after the other; if one
-    fails, the others still run, and the exit code is 1. Notes say what was lost in loading or
-    saving.
+    input. Output files are written atomically. Notes say what was lost in loading or saving.
+
+    Several inputs are a batch: they run in worker processes, on all cores. One that fails, crashes
+    its worker or takes too long costs itself only; the others still run, and the exit code is 1.
 
     With --layers the first input is the current layer, as in meshlabserver. One -o saves the layer
     that is current in the end; several save the first layers in their order. An -l just behind an
@@ -177,8 +175,8 @@ def command(
     short one is shown below. 'meshlab-willmore filters' lists the names, 'lint' checks a script.
     """
     source = _script_of(script, also)
-    options = RunOptions(source.name, _steps(source, settings), force, stop, dry_run, set())
-    jobs = plan(find_inputs(inputs), outputs, layers, force)
+    options = RunOptions(source.name, _steps(source, settings), force, dry_run, set())
+    jobs = plan(find_inputs(inputs), outputs, layers, force or is_resumed())
     runlog.check(log_file, [Path(source.name), *(file for job in jobs for file in job.files)])
     with runlog.opened(None if dry_run else log_file, source.name):
         _run_all(options, jobs)
@@ -209,24 +207,30 @@ def _steps(source: Script, settings: Sequence[str]) -> tuple[Step, ...]:
 
 
 def _run_all(options: RunOptions, jobs: Sequence[Job]) -> None:
-    stops = len(jobs) == 1 or options.stop or is_debug()
-    failed = sum(not _succeeds(options, job, stops) for job in jobs)
-    if failed:
-        raise click.ClickException(how_many_failed(failed, len(jobs)))
+    if is_batch(jobs):
+        from ..batch.runner import Recipe
 
-
-def _succeeds(options: RunOptions, job: Job, stops: bool) -> bool:
+        recipe = Recipe(options.steps, options.source, dry_run=options.dry_run)
+        run_batch(recipe, jobs, partial(_line, options), options.force)
+        return
+    (job,) = jobs
     try:
         click.echo(_run_job(options, job))
     except Exception as error:
         # This error is more important than one of the log.
         with suppress(OSError):
             log.info("error: %s", one_line(error))
-        if stops or stops_all(error):
-            raise
-        click.echo(f"Error: {failure_of(job.name, error)}", err=True)
-        return False
-    return True
+        raise
+
+
+def _line(options: RunOptions, result: Result, job: Job) -> str:
+    """What is printed of a mesh that is done."""
+    steps = counted(result.steps, "step")
+    if options.dry_run:
+        files = " and ".join(output.name for output in job.outputs) or "no file"
+        return f"{job.name}: ok; {steps} to run, then {files} to write"
+    line = f"{job.name} -> {saved_text(result.outputs)}: {steps}, {result.seconds:.1f} s"
+    return "\n".join([line, *step_results(result.returned)])
 
 
 def _run_job(options: RunOptions, job: Job) -> str:
@@ -249,18 +253,11 @@ def _run_job(options: RunOptions, job: Job) -> str:
 
 
 def _load(job: Job) -> pymeshlab.MeshSet:
-    """The inputs as layers of one set; the first is current, as in `meshlabserver`."""
-    import pymeshlab
+    from ..batch import work
 
-    ms = pymeshlab.MeshSet()
     with progress.shown(job.name) as status:
         status.begin("reading")
-        for path in job.inputs:
-            loading.load(ms, path)
-            log.info("input %s (%s)", path, _size(ms))
-    if len(job.inputs) > 1:
-        ms.set_current_mesh(0)
-    return ms
+        return work.load(job)
 
 
 def play(ms: pymeshlab.MeshSet, calls: Sequence[Call], source: str, label: str) -> list[Played]:
@@ -276,7 +273,7 @@ def play(ms: pymeshlab.MeshSet, calls: Sequence[Call], source: str, label: str) 
 
         def before(call: Call) -> None:
             status.hide()
-            runlog.log_call(call, len(calls))
+            steplog.log_call(call, len(calls))
             status.next(call.known.name)
             sys.stdout.flush()
             if call.known.is_willmore:
@@ -289,51 +286,21 @@ def play(ms: pymeshlab.MeshSet, calls: Sequence[Call], source: str, label: str) 
         def after(played: Played) -> None:
             quiet.close()
             status.hide()
-            runlog.log_result(played)
+            steplog.log_result(played)
 
         return steps.play(ms, calls, source, before, after)
 
 
 def _save(ms: pymeshlab.MeshSet, job: Job, options: RunOptions) -> str:
     """Save the layers of a job's outputs; returns which files were written."""
-    from ..mesh_files.saving import SaveOptions, save
+    from ..batch import work
+    from ..mesh_files.saving import SaveOptions
 
-    if not job.outputs:
-        return "not saved (no -o)"
-    if ms.mesh_number() == 0:
-        raise OSError(f"cannot write {job.outputs[0].name}: the script leaves no mesh")
-    layers = _layers(ms, job)
-    origin = job.inputs[0].parent if job.inputs else None
-    texts = []
-    for output, layer in zip(job.outputs, layers, strict=True):
-        ms.set_current_mesh(layer)
+    @contextmanager
+    def saving(path: Path) -> Iterator[None]:
         with progress.shown(job.name) as status:
-            status.begin(f"saving {output.path}")
-            how = SaveOptions(output.parts, options.force, origin, options.written)
-            files = save(ms, output.path, how)
-        log.info("output %s (%s)", " ".join(map(str, files)), _size(ms))
-        texts.append(f"{output.path} ({_size(ms)})")
-    return ", ".join(texts)
+            status.begin(f"saving {path}")
+            yield
 
-
-def _layers(ms: pymeshlab.MeshSet, job: Job) -> list[int]:
-    """The id of the layer for each output."""
-    current, layers = ms.current_mesh().id(), [mesh.id() for mesh in ms]
-    left = counted(len(layers), "layer")
-    chosen = [output.layer for output in job.outputs]
-    if any(chosen):
-        highest = max((int(layer) for layer in chosen if layer.isdecimal()), default=0)
-        if highest >= len(layers):
-            raise OSError(f"there is no layer {highest}: the script leaves {left}, from 0")
-        ends = {"c": current, "x": layers[-1]}
-        return [ends[layer] if layer in ends else layers[int(layer)] for layer in chosen]
-    if len(chosen) == 1:
-        return [current]
-    if len(chosen) > len(layers):
-        raise OSError(f"{len(chosen)} outputs, but the script leaves {left}")
-    return layers[: len(chosen)]
-
-
-def _size(ms: pymeshlab.MeshSet) -> str:
-    mesh = ms.current_mesh()
-    return f"{mesh.vertex_number()} vertices, {mesh.face_number()} faces"
+    how = SaveOptions(force=options.force, written=options.written)
+    return saved_text(work.save_all(ms, job, how, saving))

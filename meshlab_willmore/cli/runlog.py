@@ -8,25 +8,15 @@ import os
 import re
 import sys
 import time
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TextIO
 
+from ..batch.steplog import log
 from ..files import is_stream, opened_stream, place_of, refuse_special, writable_folder
 from ..messages import WrongUse
 from .scripts import STANDARD_STREAM
-from .text import in_line
-
-if TYPE_CHECKING:
-    from ..meshset.catalogue import FilterInfo
-    from ..meshset.check import Call
-    from ..meshset.play import Played
-
-# The log of the running command; without a handler, nothing is written.
-log = logging.getLogger("meshlab_willmore.run")
-log.setLevel(logging.INFO)
-log.propagate = False
 
 # How a log begins, and how many bytes of a file show whether it is one.
 _BEGINNING = re.compile(rb"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d run ")
@@ -93,37 +83,6 @@ def _appending(path: Path) -> TextIO:
     if is_stream(path):
         return io.TextIOWrapper(opened_stream(path), "utf-8", "backslashreplace")
     return path.open("a", encoding="utf-8", errors="backslashreplace")
-
-
-def log_call(call: Call, count: int) -> None:
-    """Write which step begins, and its parameters."""
-    name = f"{call.known.name} ({call.known.meshlab_name})"
-    log.info("step %d of %d: %s", call.number, count, name)
-    log.info("  parameters: %s", _given(call.known, call.given) or "all by default")
-
-
-def log_result(played: Played) -> None:
-    """Write how long a step took, and what it returned."""
-    log.info("  time: %.3f s", played.seconds)
-    if played.returned:
-        log.info(
-            "  returned: %s", ", ".join(f"{k}={in_line(v)}" for k, v in played.returned.items())
-        )
-
-
-def _given(known: FilterInfo, given: Mapping[str, Any]) -> str:
-    return ", ".join(f"{keyword}={_value(known, keyword, v)}" for keyword, v in given.items())
-
-
-def _value(known: FilterInfo, keyword: str, value: Any) -> str:
-    from ..mlx.steps import Percentage
-
-    param = known.param(keyword)
-    if param is not None and param.choices and isinstance(value, int):
-        return repr(param.choices[value])
-    if isinstance(value, Percentage):
-        return f"{value.percent:g}%"
-    return in_line(value)
 
 
 def check(path: str | None, others: Iterable[Path]) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 import shutil
 import sys
@@ -10,7 +9,11 @@ import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from ..batch.steplog import in_line, plain
+from ..messages import counted
+
 if TYPE_CHECKING:
+    from ..batch.records import Saved, StepResult
     from ..meshset.play import Played
 
 GAP = "  "
@@ -61,23 +64,10 @@ def fitted(rows: Sequence[Sequence[str]]) -> list[tuple[str, ...]]:
     return [(end_of(printable(name), room), *rest) for name, *rest in rows]
 
 
-def counted(number: int, thing: str) -> str:
-    """A number with its noun: 1 step, 2 steps."""
-    return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
-
-
 def how_many_failed(failed: int, count: int) -> str:
     """The last line on several inputs, of which some failed."""
     rest = "" if failed == count else "; the others are done"
     return f"{failed} of {count} inputs failed{rest}"
-
-
-def for_json(row: Mapping[str, Any]) -> dict[str, Any]:
-    """The row with null for numbers that are not finite: JSON has none of those."""
-    return {
-        key: None if isinstance(value, float) and not math.isfinite(value) else value
-        for key, value in row.items()
-    }
 
 
 # --- widths ------------------------------------------------------------------------------------
@@ -131,26 +121,21 @@ def end_of(text: str, columns: int) -> str:
 # --- what filters returned ---------------------------------------------------------------------
 
 
-def step_results(played: Iterable[Played]) -> list[str]:
+def step_results(played: Iterable[Played | StepResult]) -> list[str]:
     """An indented line for each step that returned something."""
     return [f"  step {p.number}, {p.name}: {_summary(p.returned)}" for p in played if p.returned]
+
+
+def saved_text(saved: Iterable[Saved]) -> str:
+    """The files that were written, each with its size."""
+    texts = [f"{s.file} ({s.vertices} vertices, {s.faces} faces)" for s in saved]
+    return ", ".join(texts) or "not saved (no -o)"
 
 
 def flip_results(returned: Mapping[str, Any]) -> str:
     """The number of flips and the energy before and after."""
     before, after = returned["willmore_before"], returned["willmore_after"]
     return f"{counted(returned['flips'], 'flip')}, Willmore energy {before:.6g} -> {after:.6g}"
-
-
-def in_line(value: Any) -> str:
-    """A value in one line; arrays as lists, a box by its corners."""
-    return " ".join(repr(_plain(value)).split())
-
-
-def _plain(value: Any) -> Any:
-    if type(value).__name__ == "BoundingBox":
-        return [_plain(value.min()), _plain(value.max())]
-    return value.tolist() if hasattr(value, "tolist") else value
 
 
 def _summary(returned: Mapping[str, Any]) -> str:
@@ -160,7 +145,7 @@ def _summary(returned: Mapping[str, Any]) -> str:
 
 
 def _short(value: Any) -> str:
-    text = in_line(_rounded(_plain(value)))
+    text = in_line(_rounded(plain(value)))
     return text if len(text) <= _LONGEST_VALUE else f"{text[:_LONGEST_VALUE]}..."
 
 

@@ -6,9 +6,9 @@ import sys
 
 import click
 
+from ..messages import counted
 from . import progress
 from .errors import debug_option
-from .text import counted
 
 EXAMPLES = """\b
 Examples:
@@ -26,7 +26,7 @@ def command() -> None:
     set for later runs too. This takes some minutes the first time, and seconds when everything is
     compiled. 'meshlab-willmore doctor' shows whether it is.
     """
-    from ..mesh.parallel import core_count
+    from ..machine import core_count
     from ..warmup import steps, warm_up
 
     def show(line: str) -> None:

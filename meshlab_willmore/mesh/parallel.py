@@ -6,7 +6,6 @@ time, another one in processes that were forked, and the third does not work bes
 PyMeshLab brings along.
 """
 
-import os
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
@@ -15,13 +14,6 @@ import numba
 
 # Items of one call of a kernel: far more work than the call itself, and far less than a second.
 CHUNK = 2048
-
-
-def core_count():
-    """Return how many cores this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 def thread_count():

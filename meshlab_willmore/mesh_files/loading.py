@@ -18,6 +18,7 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from .. import memory
 from ..messages import note, reason
 from ..signals import killable
 from . import formats, losses
@@ -30,7 +31,6 @@ _SECONDS = 20.0
 _SECONDS_PER_BYTE = 1e-6
 # The process ends itself so much later than the parent would end it.
 _LONGER = 1.0
-_PROC = Path("/proc")
 
 _IMAGES = {".bmp", ".jpeg", ".jpg", ".png", ".tga", ".tif", ".tiff"}
 # In an OFF file: vertices and faces; a third number, of edges, can be left out.
@@ -46,10 +46,11 @@ def loaded(path: Path) -> pymeshlab.MeshSet:
     return ms
 
 
-def load(ms: pymeshlab.MeshSet, path: Path) -> None:
+def load(ms: pymeshlab.MeshSet, path: Path, is_isolated: bool = False) -> None:
     """Load a mesh file as new layers of `ms`, and print notes on what of it is not read.
 
-    Raises `OSError` in one line: which file, and why it can't be read.
+    Where this process `is_isolated` already, the file is not tried in another one before. Raises
+    `OSError` in one line: which file, and why it can't be read.
     """
     from ..meshset import native
 
@@ -60,7 +61,8 @@ def load(ms: pymeshlab.MeshSet, path: Path) -> None:
         with killable():
             _check_corners_of_off(path)
             # Starting a process flushes Python's streams: they are muted in it only.
-            try_in_process(path, _try, _why)
+            if not is_isolated:
+                try_in_process(path, _try, _why)
         with killable(), native.overheard(ms) as printed:
             _load_checked(ms, path)
     except errors as error:
@@ -148,7 +150,7 @@ def try_in_process(
     """
     if sys.platform != "linux":
         return
-    seconds = _limit(path)
+    seconds = time_limit(path)
     context = multiprocessing.get_context("fork")
     receiver, sender = context.Pipe(duplex=False)
     child = context.Process(target=_answer, args=(sender, path, load, why, seconds + _LONGER))
@@ -174,7 +176,7 @@ def try_in_process(
         raise OSError(problem)
 
 
-def _limit(path: Path) -> float:
+def time_limit(path: Path) -> float:
     """How many seconds loading may take: textures can be far larger than the mesh."""
     size = path.stat().st_size
     with suppress(OSError):
@@ -197,35 +199,13 @@ def _answer(
     signal.setitimer(signal.ITIMER_REAL, seconds)
     faulthandler.disable()
     problem = ""
+    # A damaged file must neither use up the memory of others nor leave a core file.
+    memory.no_core_files()
     try:
-        _limit_memory()
-        load(path)
+        with memory.limited(memory.reachable()):
+            load(path)
     except Exception as error:
         problem = why(path, error)
     sender.send(problem)
     # Without exit handlers, which are those of the parent.
     os._exit(0)
-
-
-def _limit_memory() -> None:
-    """Let a damaged file neither use up the memory of others nor leave a core file."""
-    import resource
-
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    wanted = _memory()
-    if wanted is None:
-        return
-    soft, hard = resource.getrlimit(resource.RLIMIT_AS)
-    limits = [limit for limit in (soft, hard) if limit != resource.RLIM_INFINITY]
-    resource.setrlimit(resource.RLIMIT_AS, (min([wanted, *limits]), hard))
-
-
-def _memory() -> int | None:
-    """How many bytes this process uses and could use; None without /proc, as in a chroot."""
-    try:
-        pages = int((_PROC / "self/statm").read_text().split()[0])
-        lines = (_PROC / "meminfo").read_text().splitlines()
-    except OSError:
-        return None
-    free = [int(line.split()[1]) for line in lines if line.startswith("MemAvailable:")]
-    return pages * os.sysconf("SC_PAGE_SIZE") + free[0] * 1024 if free else None

@@ -45,6 +45,13 @@ class SaveOptions(NamedTuple):
     origin: Path | None = None
     # What this run has written, which no other output replaces; the new files are added.
     written: set[Path] | None = None
+    # When a batch began that several processes work at. Newer files are its own: the mesh is of an
+    # attempt that ended before it was reported, and other files may belong to other meshes.
+    begun: float | None = None
+
+    def is_own(self, file: Path) -> bool:
+        """Whether a file that exists has been written by this batch."""
+        return self.begun is not None and file.lstat().st_mtime >= self.begun
 
 
 def save(ms: pymeshlab.MeshSet, path: Path, options: SaveOptions) -> list[Path]:
@@ -68,7 +75,7 @@ def save(ms: pymeshlab.MeshSet, path: Path, options: SaveOptions) -> list[Path]:
         _check_free(moves, path, options)
         for loss in formats.losses(ms, draft, ending.lower(), bool(options.parts)):
             note(f"{path}: {loss}")
-        _rename_all(moves)
+        _rename_all(moves, is_shared=options.begun is not None)
     if options.written is not None:
         options.written.update(target.resolve() for _, target in moves)
     return [target for _, target in reversed(moves)]
@@ -151,14 +158,24 @@ def _check_free(moves: list[tuple[Path, Path]], path: Path, options: SaveOptions
             raise OSError(
                 f"cannot write {path}: {target} belongs to another output; use different folders"
             )
+        if os.path.lexists(target) and options.is_own(target):
+            if target in (path, path.with_name(f"{path.name}.mtl")):
+                continue
+            raise OSError(
+                f"cannot write {path}: {target} belongs to another output; use different folders"
+            )
         if os.path.lexists(target) and not options.force:
             raise FileExistsError(
                 f"cannot write {path}: {target} already exists; use --force to overwrite"
             )
 
 
-def _rename_all(moves: list[tuple[Path, Path]]) -> None:
-    """Rename all files to their places; after an error remove those that are new."""
+def _rename_all(moves: list[tuple[Path, Path]], is_shared: bool) -> None:
+    """Rename all files to their places; after an error remove those that are new.
+
+    Where other processes write into the same folders (`is_shared`), files beside the mesh replace
+    none that has come since it was looked for.
+    """
     from ..meshset import interrupts
 
     new: list[Path] = []
@@ -167,12 +184,30 @@ def _rename_all(moves: list[tuple[Path, Path]]) -> None:
             for source, target in moves:
                 target.parent.mkdir(parents=True, exist_ok=True)
                 is_new = not os.path.lexists(target)
-                replace(source, target)
+                if is_shared and is_new and (source, target) != moves[-1]:
+                    is_new = _place_new(source, target)
+                else:
+                    replace(source, target)
                 new += [target] if is_new else []
         except OSError as error:
             for file in new:
                 file.unlink(missing_ok=True)
             raise OSError(f"cannot write {target}: {error.strerror}") from error
+
+
+def _place_new(source: Path, target: Path) -> bool:
+    """Give a file its name, unless another one with the same content got it; return which."""
+    try:
+        os.link(source, target)
+    except FileExistsError as error:
+        if filecmp.cmp(source, target, shallow=False):
+            return False
+        reason = "the file now belongs to another output; use different folders"
+        raise OSError(error.errno, reason) from error
+    except OSError:
+        # A disk without hard links.
+        replace(source, target)
+    return True
 
 
 # --- textures ----------------------------------------------------------------------------------

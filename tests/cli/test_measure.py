@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from meshlab_willmore import measures
-from meshlab_willmore.cli.text import for_json
+from meshlab_willmore.batch.steplog import for_json
 from tests import meshes
 
 from .conftest import SAMPLES, call, cube_file, spawn

@@ -131,13 +131,13 @@ def test_quick_work_prints_nothing_in_a_log(capsys):
 
 def test_long_work_prints_lines_in_a_log(monkeypatch):
     actions = []
-    repeated = progress._repeated
+    repeated = progress.repeated
 
     def noted(action, seconds):
         actions.append((action, seconds))
         return repeated(action, 3600.0)
 
-    monkeypatch.setattr(progress, "_repeated", noted)
+    monkeypatch.setattr(progress, "repeated", noted)
     monkeypatch.setattr(progress, "SECONDS_IN_A_LOG", IN_A_LOG)
     with contextlib.redirect_stderr(io.StringIO()) as stream, shown("it", 2) as status:
         status.next("working")

@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from meshlab_willmore import memory
+from meshlab_willmore.batch import process
 from meshlab_willmore.mesh_files import loading, paths
 from meshlab_willmore.mesh_files.paths import check_place
 from meshlab_willmore.messages import WrongUse
@@ -128,13 +130,8 @@ def test_missing_and_unknown_inputs_do_not_stop_the_others(bad):
 def test_input_removed_during_the_run(monkeypatch):
     square("a.off")
     square("b.off")
-    load = loading.load
-
-    def take_away(ms, path):
-        Path("b.off").unlink(missing_ok=True)
-        load(ms, path)
-
-    monkeypatch.setattr(loading, "load", take_away)
+    take_away = "import os; os.path.exists('b.off') and os.remove('b.off'); "
+    monkeypatch.setattr(process, "_PROGRAM", take_away + process._PROGRAM)
     result = call("run", script_file(TAUBIN), "-i", "a.off", "b.off", "-o", "{name}.ply")
     assert result.exit_code == 1
     assert result.stderr.splitlines()[0].startswith("Error: cannot read b.off: ")
@@ -367,10 +364,10 @@ def test_endless_load_is_stopped(file, monkeypatch):
 
 @LINUX
 def test_large_textures_get_more_time(file):
-    alone = loading._limit(file)
+    alone = loading.time_limit(file)
     with (file.parent / "image.PNG").open("wb") as image:
         image.truncate(50_000_000)
-    assert loading._limit(file) == pytest.approx(alone + 50.0)
+    assert loading.time_limit(file) == pytest.approx(alone + 50.0)
 
 
 @LINUX
@@ -383,7 +380,7 @@ def test_memory_is_limited(file):
 
 @LINUX
 def test_loading_without_proc(file, tmp_path, monkeypatch):
-    monkeypatch.setattr(loading, "_PROC", tmp_path / "not mounted")
+    monkeypatch.setattr(memory, "_PROC", tmp_path / "not mounted" / "self")
     loading.try_in_process(file, lambda _: None, why)
 
 

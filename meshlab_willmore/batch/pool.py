@@ -1,0 +1,276 @@
+"""A pool of worker processes: each task costs itself at most, whatever it does.
+
+A process that has done other tasks may crash by what those left behind. So a task with which such a
+process dies gets a second chance in a fresh one, and is blamed only for what happens there.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import itertools
+import os
+import socket
+import threading
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
+from pathlib import Path
+from queue import Empty, SimpleQueue
+from typing import Any, Generic, NamedTuple, TypeVar
+
+from ..files import remove_drafts
+from .process import CRASH, DONE, ERROR, MEMORY, Ended, Phase, Task, WorkerProcess, WorkerSettings
+
+Key = TypeVar("Key")
+
+# How many tasks a process does before another one takes its place.
+RENEWED_AFTER = 200
+# The message before each attempt.
+STARTING = Phase("starting")
+# Numbers of the processes that this one has started.
+_numbers = itertools.count()
+# Between looks at Ctrl-C, which does not interrupt a wait on Windows.
+_SECONDS = 0.5
+
+
+class PoolSettings(NamedTuple):
+    """How many processes a pool has, and what it does with them.
+
+    Attributes
+    ----------
+    workers : int
+        How many.
+    retries : int
+        How often a task that failed is done again.
+    renewed_after : int
+        After how many tasks a process is replaced.
+    warm_up : Task or None
+        What each process does first, one of them before all others: it compiles what they load.
+    threads : int
+        For Numba, in each process.
+    memory : int or None
+        The most bytes that a process may use.
+    folder : str or None
+        The working folder of the processes; that of this one if None.
+    """
+
+    workers: int = 1
+    retries: int = 0
+    renewed_after: int = RENEWED_AFTER
+    warm_up: Task | None = None
+    threads: int = 1
+    memory: int | None = None
+    folder: str | None = None
+
+
+def own_mark() -> str:
+    """The end of names of temporary folders of this process' workers, without a number."""
+    host = hashlib.sha256(socket.gethostname().encode()).hexdigest()[:6]
+    return f".mw-{host}-{os.getpid()}"
+
+
+def is_running(pid: int) -> bool:
+    """Whether there is a process of this number, as far as the system says."""
+    if not hasattr(os, "killpg"):
+        return True
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    except PermissionError:
+        return True
+    return True
+
+
+class Attempted(NamedTuple):
+    """How a task ended in the last attempt, and how many there were."""
+
+    ended: Ended
+    attempts: int
+
+
+class Seat:
+    """A place for one worker process, which is started when it is needed."""
+
+    def __init__(self, settings: PoolSettings) -> None:
+        self._settings = settings
+        self._worker: WorkerProcess | None = None
+        self._lock = threading.Lock()
+        self._is_closed = False
+
+    def attempt(self, task: Task, listen: Callable[[Any], None]) -> Attempted:
+        """Do a task, again where it fails and may; `Phase` messages begin each attempt."""
+        attempts = 0
+        while True:
+            worker, is_fresh = self.ready()
+            listen(STARTING)
+            ended = worker.do(task, listen)
+            if ended.status not in (DONE, ERROR):
+                self._drop()
+                for folder in task.folders:
+                    remove_drafts(Path(folder), worker.mark)
+            elif worker.done >= self._settings.renewed_after:
+                self._drop()
+            if ended.status in (CRASH, MEMORY) and not is_fresh and not self._is_closed:
+                continue
+            attempts += 1
+            is_final = ended.status == DONE or ended.stops_all or self._is_closed
+            if is_final or attempts > self._settings.retries:
+                return Attempted(ended, attempts)
+
+    def ready(self) -> tuple[WorkerProcess, bool]:
+        """The process, warmed up, and whether it has done no task yet.
+
+        Raises `InterruptedError` if the place was closed.
+        """
+        if self._worker is not None:
+            return self._worker, False
+        settings = self._settings
+        mark = f"{own_mark()}-{next(_numbers)}"
+        worker = WorkerProcess(
+            WorkerSettings(settings.threads, settings.memory, mark, settings.folder)
+        )
+        with self._lock:
+            self._worker = worker
+        if self._is_closed:
+            self.close()
+            raise InterruptedError
+        if self._settings.warm_up is not None:
+            ended = worker.do(self._settings.warm_up)
+            if ended.status not in (DONE, ERROR):
+                # The meshes will say what is wrong.
+                self._drop()
+                return self._without_warm_up()
+        return worker, True
+
+    def _without_warm_up(self) -> tuple[WorkerProcess, bool]:
+        self._settings = self._settings._replace(warm_up=None)
+        return self.ready()
+
+    def _drop(self) -> None:
+        with self._lock:
+            worker, self._worker = self._worker, None
+        if worker is not None:
+            worker.close()
+
+    def kill(self) -> None:
+        """End the process at once, and start no other; another thread may be using it."""
+        self._is_closed = True
+        with self._lock:
+            if self._worker is not None:
+                self._worker.kill()
+
+    def close(self) -> None:
+        """End the process and remove its files."""
+        self.kill()
+        self._drop()
+
+
+class Pool(Generic[Key]):
+    """Several workers; `ended` does tasks in them, and `close` ends all at once.
+
+    The attribute `running` has what each is doing: the key of a task and the phase it is in.
+    """
+
+    def __init__(self, settings: PoolSettings) -> None:
+        self.running: dict[int, tuple[Key, str]] = {}
+        self._settings = settings
+        self._seats = [Seat(settings) for _ in range(settings.workers)]
+        self._results: SimpleQueue[tuple[Key, Attempted] | BaseException | None] = SimpleQueue()
+        self._is_warm = threading.Event()
+        self._threads: list[threading.Thread] = []
+        self._lock = threading.Lock()
+
+    def __enter__(self) -> Pool[Key]:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def ended(
+        self,
+        tasks: Iterable[tuple[Key, Task]],
+        listen: Callable[[Key, Any], None] = lambda key, message: None,
+    ) -> Iterator[tuple[Key, Attempted]]:
+        """Do tasks; give the key of each with how it ended, as they end.
+
+        `listen` is called with keys and messages, in other threads. Tasks are taken when a worker
+        is free.
+        """
+        waiting = iter(tasks)
+        self._threads = [
+            threading.Thread(target=self._serve, args=(place, waiting, listen), daemon=True)
+            for place in range(len(self._seats))
+        ]
+        for thread in self._threads:
+            thread.start()
+        left = len(self._threads)
+        while left:
+            result = self._next()
+            if isinstance(result, BaseException):
+                raise result
+            if result is None:
+                left -= 1
+            else:
+                yield result
+
+    def _next(self) -> tuple[Key, Attempted] | BaseException | None:
+        while True:
+            with suppress(Empty):
+                return self._results.get(timeout=_SECONDS)
+
+    def _serve(
+        self,
+        place: int,
+        waiting: Iterator[tuple[Key, Task]],
+        listen: Callable[[Key, Any], None],
+    ) -> None:
+        seat = self._seats[place]
+        try:
+            while True:
+                with self._lock:
+                    following = next(waiting, None)
+                if following is None:
+                    break
+                key, task = following
+                self._start(place, seat)
+                self._results.put((key, seat.attempt(task, self._listener(place, key, listen))))
+                self.running.pop(place, None)
+        except BaseException as error:
+            self._results.put(error)
+        else:
+            self._results.put(None)
+        finally:
+            self.running.pop(place, None)
+            seat.close()
+            # Where the first has no task, the others need not wait.
+            self._is_warm.set()
+
+    def _start(self, place: int, seat: Seat) -> None:
+        """Start the worker; the others wait until the first one has compiled what all need."""
+        if self._settings.warm_up is None:
+            return
+        if place == 0:
+            seat.ready()
+            self._is_warm.set()
+        else:
+            self._is_warm.wait()
+
+    def _listener(
+        self, place: int, key: Key, listen: Callable[[Key, Any], None]
+    ) -> Callable[[Any], None]:
+        def heard(message: Any) -> None:
+            if isinstance(message, Phase):
+                self.running[place] = (key, message.name)
+            listen(key, message)
+
+        return heard
+
+    def close(self) -> None:
+        """End all workers at once, and remove their files."""
+        for seat in self._seats:
+            seat.kill()
+        self._is_warm.set()
+        for thread in self._threads:
+            thread.join()
+        for seat in self._seats:
+            seat.close()

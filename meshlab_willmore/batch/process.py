@@ -1,0 +1,265 @@
+"""A worker process that does one task after another, and may crash, hang or run out of memory.
+
+The process gets tasks by its standard input and answers by its standard output. It has a process
+group and a folder for temporary files of its own, and ends with this process, however that ends.
+Its `__main__` is none of the caller's: scripts need no guard.
+"""
+
+from __future__ import annotations
+
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable
+from contextlib import ExitStack, suppress
+from typing import IO, Any, NamedTuple
+
+from ..temporary_files import temporary_folder
+
+# How tasks end.
+DONE = "done"
+ERROR = "error"
+CRASH = "crash"
+TIMEOUT = "timeout"
+MEMORY = "memory"
+
+# What a worker sends when it has imported what a task needs: now its time begins.
+BEGUN = None
+
+# No file of the working folder may hide a module.
+_PROGRAM = "import sys; sys.path[:] = {path!r}; from {module} import main; main()"
+_MODULE = "meshlab_willmore.batch.worker"
+# Bytes of the length before each message.
+LENGTH = 8
+
+
+class WorkerSettings(NamedTuple):
+    """What is the same for all workers of a pool.
+
+    Attributes
+    ----------
+    threads : int
+        For Numba, in each process.
+    memory : int or None
+        How many bytes a process may use.
+    mark : str
+        Ends the names of temporary folders, those beside outputs too.
+    folder : str or None
+        The working folder; that of this process if None.
+    """
+
+    threads: int = 1
+    memory: int | None = None
+    mark: str = ""
+    folder: str | None = None
+
+
+class Task(NamedTuple):
+    """A function to call in a worker, its argument, and how many seconds that may take.
+
+    The function has the name ``module:function`` and is called with the argument and a function
+    that sends a message to the parent. In the folders it may leave drafts if it is killed.
+    """
+
+    function: str
+    argument: Any = None
+    seconds: float | None = None
+    folders: tuple[str, ...] = ()
+
+
+class Phase(NamedTuple):
+    """A message: what a task does from now on, and how long it may do so (None: as before)."""
+
+    name: str
+    seconds: float | None = None
+
+
+class Ended(NamedTuple):
+    """How a task ended.
+
+    Attributes
+    ----------
+    status : str
+        `DONE`, `ERROR`, `CRASH`, `TIMEOUT` or `MEMORY`.
+    value : object
+        What the function returned.
+    reason : str
+        Why there is no value, in one line.
+    trace : str
+        The traceback of an error.
+    of_machine, stops_all : bool
+        Whether the machine is at fault, and whether all other tasks would fail in the same way.
+    phase : str
+        In which phase it failed.
+    memory : int or None
+        The most bytes that the process had in memory meanwhile.
+    seconds : float
+        How long it took.
+    host : str
+        The machine; empty for this one.
+    """
+
+    status: str
+    value: Any = None
+    reason: str = ""
+    trace: str = ""
+    of_machine: bool = False
+    stops_all: bool = False
+    phase: str = ""
+    memory: int | None = None
+    seconds: float = 0.0
+    host: str = ""
+
+
+class WorkerProcess:
+    """A process that is alive from the start to `close`, or to a task that it does not survive."""
+
+    def __init__(self, settings: WorkerSettings) -> None:
+        self.done = 0
+        self.mark = settings.mark
+        self._memory = settings.memory
+        self._phase = ""
+        self._timed_out: float | None = None
+        self._lock = threading.Lock()
+        self._timer: threading.Timer | None = None
+        self._stack = ExitStack()
+        folder = str(self._stack.enter_context(temporary_folder(mark=settings.mark)))
+        names = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder)
+        try:
+            self._process = subprocess.Popen(
+                [sys.executable, "-c", _PROGRAM.format(path=sys.path, module=_MODULE)],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.DEVNULL,
+                cwd=settings.folder,
+                env={**os.environ, **names, "NUMBA_NUM_THREADS": str(settings.threads)},
+                # Ctrl-C on a terminal is for the parent alone, which then ends this process.
+                start_new_session=True,
+            )
+        except BaseException:
+            self._stack.close()
+            raise
+        if hasattr(os, "waitid"):
+            threading.Thread(target=self._end_group, daemon=True).start()
+        with suppress(BrokenPipeError):
+            _write(_stream(self._process.stdin), settings)
+
+    @property
+    def pid(self) -> int:
+        """The number of the process, and of its group."""
+        return self._process.pid
+
+    def do(self, task: Task, listen: Callable[[Any], None] = lambda message: None) -> Ended:
+        """Do a task; `listen` is called with its messages. Unless it is done, close the worker."""
+        start = time.monotonic()
+        return self._ended(task, listen)._replace(seconds=time.monotonic() - start)
+
+    def _ended(self, task: Task, listen: Callable[[Any], None]) -> Ended:
+        self._phase, self._timed_out = "", None
+        try:
+            _write(_stream(self._process.stdin), task)
+            while not isinstance(message := read(_stream(self._process.stdout)), Ended):
+                if message is BEGUN:
+                    self._limit(task.seconds)
+                    continue
+                if isinstance(message, Phase):
+                    self._phase = message.name
+                    if message.seconds is not None:
+                        self._limit(message.seconds)
+                listen(message)
+        except (OSError, EOFError, pickle.UnpicklingError, ValueError):
+            return self._death()
+        finally:
+            self._limit(None)
+        self.done += 1
+        return message._replace(phase=self._phase)
+
+    def kill(self) -> None:
+        """End the process and its children at once; another thread may be waiting for an answer."""
+        with self._lock:
+            if self._process.returncode is not None:
+                return
+            if hasattr(os, "killpg"):
+                with suppress(ProcessLookupError, PermissionError):
+                    os.killpg(self._process.pid, signal.SIGKILL)
+            else:
+                self._process.kill()
+
+    def close(self) -> None:
+        """End the process and its children, and remove its temporary files."""
+        self.kill()
+        self._wait()
+        for stream in (self._process.stdin, self._process.stdout):
+            with suppress(OSError):
+                _stream(stream).close()
+        self._stack.close()
+
+    def _wait(self) -> int:
+        """Wait for the end; the number of the group is free only then."""
+        with self._lock:
+            return self._process.wait()
+
+    def _end_group(self) -> None:
+        """Kill the children of a process that has ended: they would hold its standard output."""
+        with suppress(ChildProcessError):
+            os.waitid(os.P_PID, self._process.pid, os.WEXITED | os.WNOWAIT)
+        self.kill()
+
+    def _limit(self, seconds: float | None) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None
+        if seconds is not None and seconds <= threading.TIMEOUT_MAX:
+            self._timer = threading.Timer(max(seconds, 0.0), self._time_out, (seconds,))
+            self._timer.daemon = True
+            self._timer.start()
+
+    def _time_out(self, seconds: float) -> None:
+        self._timed_out = seconds
+        self.kill()
+
+    def _death(self) -> Ended:
+        self.kill()
+        code = self._wait()
+        if self._timed_out is not None:
+            reason = f"not finished within {self._timed_out:.3g} s"
+            return Ended(TIMEOUT, reason=reason, phase=self._phase)
+        if code >= 0:
+            return Ended(
+                CRASH, reason=f"the process ended with exit code {code}", phase=self._phase
+            )
+        reason = f"crashed ({signal.Signals(-code).name})"
+        if -code == signal.SIGKILL:
+            reason = "the process was killed (SIGKILL), perhaps for lack of memory"
+        elif self._memory is not None:
+            reason += "; the memory limit may be the cause"
+        return Ended(CRASH, reason=reason, phase=self._phase)
+
+
+def _stream(stream: IO[bytes] | None) -> IO[bytes]:
+    assert stream is not None
+    return stream
+
+
+def _write(stream: IO[bytes], message: object) -> None:
+    stream.write(framed(message))
+    stream.flush()
+
+
+def framed(message: object) -> bytes:
+    """A message with its length before it."""
+    data = pickle.dumps(message)
+    return len(data).to_bytes(LENGTH, "big") + data
+
+
+def read(stream: IO[bytes]) -> Any:
+    """The next message of a buffered stream; raises `EOFError` at its end."""
+    head = stream.read(LENGTH)
+    data = stream.read(int.from_bytes(head, "big")) if len(head) == LENGTH else b""
+    if not data:
+        raise EOFError
+    return pickle.loads(data)

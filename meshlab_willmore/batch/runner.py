@@ -1,0 +1,397 @@
+"""Running a batch: in Python `run`, and for the command line `Batch`."""
+
+from __future__ import annotations
+
+import inspect
+import os
+import pickle
+import re
+import shutil
+import socket
+import threading
+import time
+from collections import defaultdict
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from contextlib import ExitStack, closing, suppress
+from pathlib import Path
+from tempfile import gettempdir
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import cloudpickle
+import pymeshlab
+
+from ..files import place_of
+from ..machine import MachineError, core_count
+from ..mesh_files.paths import Output, check_output, find_inputs
+from ..messages import WrongUse, one_line
+from ..mlx.steps import ScriptError, Step
+from ..script import examined
+from . import records
+from .cluster import Cluster
+from .jobs import Job, plan
+from .pool import RENEWED_AFTER, STARTING, Attempted, Pool, PoolSettings, is_running, own_mark
+from .process import CRASH, DONE, ERROR, MEMORY, TIMEOUT, Ended, Phase, Task
+from .records import BAD_FILE, Earlier, Records, Result
+from .shards import Shard, shard_of
+from .work import READING, Line, Made, Note, Work
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+Script = str | os.PathLike[str] | Iterable[Step] | Callable[[pymeshlab.MeshSet], Any]
+
+_WORK = "meshlab_willmore.batch.work:do"
+_WARM_UP = "meshlab_willmore.batch.work:warm_up"
+# A worker itself takes a good part of that.
+LEAST_MEMORY = 2**28
+
+
+class Recipe(NamedTuple):
+    """What is done to each mesh: steps, or a pickled function, and what messages call them."""
+
+    steps: tuple[Step, ...] | bytes
+    source: str
+    is_measured: bool = True
+    must_be_measured: bool = False
+    dry_run: bool = False
+
+
+class BatchOptions(NamedTuple):
+    """How a batch is run; the parameters of `run` describe the fields."""
+
+    workers: int | None = None
+    timeout: float | None = None
+    memory: int | None = None
+    retries: int = 0
+    force: bool = False
+    log: Path | None = None
+    resume: bool = False
+    retry_failed: bool = False
+    stop: bool = False
+    shard: Shard | None = None
+    client: Client | None = None
+    renewed_after: int = RENEWED_AFTER
+
+
+def run(
+    script: Script,
+    inputs: str | os.PathLike[str] | Iterable[str | os.PathLike[str]],
+    output: str | os.PathLike[str] | None = None,
+    *,
+    workers: int | None = None,
+    timeout: float | None = None,
+    memory: int | None = None,
+    retries: int = 0,
+    force: bool = False,
+    log: str | os.PathLike[str] | None = None,
+    resume: bool = False,
+    retry_failed: bool = False,
+    stop: bool = False,
+    shard: str | None = None,
+    client: Client | None = None,
+    renewed_after: int = RENEWED_AFTER,
+) -> Iterator[Result]:
+    """Run a script on many meshes, in worker processes that may crash.
+
+    Parameters
+    ----------
+    script : path, iterable of Step, or callable
+        A filter script, its steps, or a function that gets a `pymeshlab.MeshSet` with the mesh and
+        changes it; what it returns is recorded.
+    inputs : path, pattern, or iterable of these
+        Meshes. ``**`` in a pattern goes through folders.
+    output : path, optional
+        The output of each input: a name with placeholders such as ``out/{dir}/{name}.ply``.
+        Nothing is saved without it.
+    workers : int, optional
+        How many meshes are processed at the same time; as many as there are cores if left out.
+    timeout : float, optional
+        The most seconds for a mesh.
+    memory : int, optional
+        The most bytes that a worker may use. Only some systems can limit it.
+    retries : int
+        How often a mesh that fails is done again.
+    force : bool
+        Overwrite files that existed before.
+    log : path, optional
+        A file that gets a line of JSON for each mesh as it ends.
+    resume, retry_failed : bool
+        Go on with the batch in `log`: leave out what is done, and what failed unless it is to be
+        retried.
+    stop : bool
+        Stop at the first mesh that fails.
+    shard : str, optional
+        Only this share of the inputs, such as "3/32"; "auto" is what SLURM's or Kubernetes'
+        variables say.
+    client : distributed.Client, optional
+        Run on its Dask cluster; then `workers` is the cluster's.
+    renewed_after : int
+        A worker is replaced after so many meshes.
+
+    Yields
+    ------
+    Result
+        For each mesh as it ends. What is left out by `resume` is not among them.
+
+    Raises
+    ------
+    ScriptError
+        The script has faults.
+    ValueError
+        Inputs and outputs don't fit together, an output exists already, or a number is wrong.
+    OSError
+        Outputs can't be written.
+    """
+    names = [inputs] if isinstance(inputs, (str, os.PathLike)) else list(inputs)
+    outputs = [] if output is None else [Output(os.fspath(output))]
+    is_continued = resume or retry_failed
+    jobs = plan(
+        find_inputs([os.fspath(name) for name in names]), outputs, False, force or is_continued
+    )
+    options = BatchOptions(
+        workers=workers,
+        timeout=timeout,
+        memory=memory,
+        retries=retries,
+        force=force,
+        log=None if log is None else Path(log),
+        resume=is_continued,
+        retry_failed=retry_failed,
+        stop=stop,
+        shard=None if shard is None else shard_of(shard),
+        client=client,
+        renewed_after=renewed_after,
+    )
+    with closing(Batch(recipe_of(script), jobs, options)) as batch:
+        yield from batch.results()
+
+
+def recipe_of(script: Script) -> Recipe:
+    """What a script or a function does to each mesh; raises `ScriptError` for a faulty script."""
+    if callable(script):
+        return Recipe(cloudpickle.dumps(script), getattr(script, "__qualname__", repr(script)))
+    is_file = isinstance(script, (str, os.PathLike))
+    source = os.fspath(script) if is_file else "filter script"  # type: ignore[arg-type]
+    found = examined(script)
+    if found.faults:
+        raise ScriptError(source, found.faults)
+    return Recipe(found.reading.steps, source)
+
+
+class Batch:
+    """The jobs of a batch that are left to do, and what was done earlier.
+
+    Attributes
+    ----------
+    jobs : list of Job
+        What `results` does.
+    earlier : list of Result
+        What stays as an earlier run has left it.
+    """
+
+    def __init__(self, recipe: Recipe, jobs: Iterable[Job], options: BatchOptions) -> None:
+        _check(options)
+        self._recipe = recipe
+        self._options = options
+        chosen = [job for job in jobs if options.shard is None or options.shard.has(job.name)]
+        self._hash = records.recipe_of(*_description(recipe), *_manners(chosen))
+        if options.log is not None:
+            records.check(options.log, options.resume, options.force)
+        log = options.log if options.resume else None
+        known = Earlier({}, {}) if log is None else records.read(log)
+        self._begun = known.begun.get(self._hash, time.time())
+        self.earlier: list[Result] = []
+        self.jobs: list[Job] = []
+        for job in chosen:
+            settled = known.settles(job.name, self._hash, records.stamp(job.inputs))
+            if settled is not None and (settled.is_done or not options.retry_failed):
+                self.earlier.append(settled)
+            else:
+                self.jobs.append(job)
+        if options.resume:
+            self._check_outputs()
+            _remove_stale({output.path.parent for job in self.jobs for output in job.outputs})
+        self._pool: Pool[int] | None = None
+
+    def _check_outputs(self) -> None:
+        """Raise `WrongUse` if an output exists that is not of this batch."""
+        for job in self.jobs:
+            for output in job.outputs:
+                is_own = output.path.exists() and output.path.stat().st_mtime >= self._begun
+                check_output(output.path, self._options.force or is_own)
+
+    @property
+    def running(self) -> list[tuple[str, str]]:
+        """The names of what is processed at the moment, and the phase that each is in."""
+        now = list(self._pool.running.values()) if self._pool is not None else []
+        return [(self.jobs[key].name, phase) for key, phase in now]
+
+    def close(self) -> None:
+        """End all workers at once."""
+        if self._pool is not None:
+            self._pool.close()
+
+    def results(self) -> Generator[Result, None, None]:
+        """Do the jobs; give what became of each as it ends, when that is recorded.
+
+        Raises `MachineError` where all others would fail in the same way.
+        """
+        log = self._options.log
+        with ExitStack() as stack:
+            own = None if log is None else stack.enter_context(closing(Records(log, self._hash)))
+            for result in self._results():
+                if own is not None:
+                    own.add(result)
+                yield result
+                if self._options.stop and not result.is_done:
+                    return
+
+    def _results(self) -> Iterator[Result]:
+        tasks = []
+        for key, job in enumerate(self.jobs):
+            if job.problem is None:
+                tasks.append((key, self._task(job)))
+            else:
+                ended = Ended(ERROR, reason=one_line(job.problem), phase=READING)
+                yield self._result(job, Attempted(ended, 1), [])
+        if not tasks:
+            return
+        heard: dict[int, list[Any]] = defaultdict(list)
+
+        def listen(key: int, message: Any) -> None:
+            if message == STARTING:
+                heard[key].clear()
+            elif not isinstance(message, Phase):
+                heard[key].append(message)
+
+        for key, attempted in self._engine(len(tasks)).ended(tasks, listen):
+            if attempted.ended.stops_all:
+                raise MachineError(attempted.ended.reason)
+            yield self._result(self.jobs[key], attempted, heard.pop(key, []))
+
+    def _engine(self, count: int) -> Pool[int] | Cluster[int]:
+        options, recipe = self._options, self._recipe
+        steps = recipe.steps if not isinstance(recipe.steps, bytes) else ()
+        settings = PoolSettings(
+            retries=options.retries,
+            renewed_after=options.renewed_after,
+            warm_up=None if recipe.dry_run else Task(_WARM_UP, steps),
+            memory=options.memory,
+        )
+        if options.client is not None:
+            return Cluster(options.client, settings._replace(folder=os.getcwd()))
+        workers = min(options.workers or core_count(), count)
+        threads = max(1, core_count() // workers)
+        self._pool = Pool(settings._replace(workers=workers, threads=threads))
+        return self._pool
+
+    def _task(self, job: Job) -> Task:
+        recipe, options = self._recipe, self._options
+        work = Work(
+            job,
+            recipe.steps,
+            recipe.source,
+            options.force,
+            self._begun,
+            recipe.is_measured,
+            recipe.must_be_measured,
+            recipe.dry_run,
+            options.timeout,
+        )
+        folders = tuple({str(place_of(output.path).parent) for output in job.outputs})
+        return Task(_WORK, work, options.timeout, folders)
+
+    def _result(self, job: Job, attempted: Attempted, heard: Sequence[Any]) -> Result:
+        ended = attempted.ended
+        made = ended.value if ended.status == DONE else Made((), (), 0, None, None)
+        size, modified = records.stamp(job.inputs)
+        status, reason = self._outcome(job, ended)
+        return Result(
+            job.name,
+            status,
+            outputs=made.outputs,
+            step="" if status == DONE else ended.phase,
+            reason=reason,
+            seconds=ended.seconds,
+            memory=ended.memory,
+            attempts=attempted.attempts,
+            steps=made.steps,
+            returned=made.returned,
+            before=made.before,
+            after=made.after,
+            notes=tuple(message.text for message in heard if isinstance(message, Note)),
+            size=size,
+            modified=modified,
+            recipe=self._hash,
+            versions=records.versions(),
+            host=ended.host or socket.gethostname(),
+            ended=time.strftime("%Y-%m-%d %H:%M:%S"),
+            trace=ended.trace,
+            lines=tuple(message.text for message in heard if isinstance(message, Line)),
+        )
+
+    def _outcome(self, job: Job, ended: Ended) -> tuple[str, str]:
+        """The status of a job and the reason: a failure in reading is the file's, if no limit's."""
+        limits = {TIMEOUT: self._options.timeout, MEMORY: self._options.memory}
+        is_limit = limits.get(ended.status) is not None
+        if ended.phase != READING or ended.status == DONE or ended.of_machine or is_limit:
+            return ended.status, ended.reason
+        what = ended.reason
+        if ended.status == CRASH:
+            signal = ended.reason.removeprefix("crashed ")
+            what = f"PyMeshLab crashes on it {signal}; the file is damaged, or ends early"
+        elif ended.status == TIMEOUT:
+            what = f"PyMeshLab does {ended.reason.replace('finished', 'finish')}"
+        elif ended.status == ERROR:
+            return BAD_FILE, what
+        return BAD_FILE, f"cannot read {job.name}: {what}"
+
+
+def _check(options: BatchOptions) -> None:
+    """Raise `WrongUse` for a number that makes no sense."""
+    for name, value, least in (
+        ("workers", options.workers, 1),
+        ("retries", options.retries, 0),
+        ("renewed_after", options.renewed_after, 1),
+        ("memory", options.memory, LEAST_MEMORY),
+    ):
+        if value is not None and value < least:
+            raise WrongUse(f"{name} is {value}, but must be {least} or more")
+    if options.timeout is not None and not 0.0 < options.timeout <= threading.TIMEOUT_MAX:
+        raise WrongUse(f"timeout is {options.timeout:g}, which is no number of seconds to wait")
+    if options.resume and options.log is None:
+        raise WrongUse(
+            "to go on with a batch its log is needed: the file with a line for each mesh"
+        )
+
+
+def _description(recipe: Recipe) -> tuple[object, ...]:
+    """What of a recipe makes results differ."""
+    if isinstance(recipe.steps, bytes):
+        return (recipe.steps, _code(pickle.loads(recipe.steps)))
+    plain = [(s.filter, [(p.name, p.type, p.value) for p in s.params]) for s in recipe.steps]
+    return (plain, recipe.must_be_measured)
+
+
+def _code(function: object) -> str:
+    """The source of a function: one of a module is pickled by its name alone."""
+    try:
+        return inspect.getsource(function)  # type: ignore[arg-type]
+    except (OSError, TypeError):
+        return ""
+
+
+def _manners(jobs: Sequence[Job]) -> set[tuple[tuple[str, ...], str]]:
+    """How outputs are saved: parts and layers."""
+    return {(output.parts, output.layer) for job in jobs for output in job.outputs}
+
+
+def _remove_stale(folders: Iterable[Path]) -> None:
+    """Remove what workers have left whose batch was killed with them, on this machine."""
+    pattern = re.compile(re.escape(own_mark()).replace(str(os.getpid()), r"(\d+)") + r"-\d+")
+    for folder in (*folders, Path(gettempdir())):
+        with suppress(OSError):
+            for entry in os.scandir(folder):
+                found = pattern.search(entry.name)
+                if found and found.end() == len(entry.name) and not is_running(int(found[1])):
+                    shutil.rmtree(entry.path, ignore_errors=True)

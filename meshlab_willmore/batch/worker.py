@@ -1,0 +1,109 @@
+"""The program of a worker process: it reads tasks, does them, and sends what they return."""
+
+from __future__ import annotations
+
+import importlib
+import os
+import pickle
+import shutil
+import signal
+import threading
+import traceback
+from contextlib import suppress
+from queue import SimpleQueue
+
+from .. import files, machine, memory
+from ..messages import reason
+from .process import BEGUN, DONE, ERROR, LENGTH, MEMORY, Ended, Task, WorkerSettings, framed
+
+# What C++ code says of a failed allocation.
+_NO_MEMORY = "bad_alloc"
+
+
+def main() -> None:
+    """Do tasks until the standard input ends."""
+    tasks, answers = _own_streams()
+    settings: WorkerSettings = pickle.loads(_read(tasks))
+    files.draft_mark = settings.mark
+    memory.no_core_files()
+    waiting: SimpleQueue[bytes] = SimpleQueue()
+    threading.Thread(target=_receive, args=(tasks, waiting), daemon=True).start()
+    while True:
+        _send(answers, _ended(pickle.loads(waiting.get()), settings, answers))
+
+
+def _own_streams() -> tuple[int, int]:
+    """Descriptors from and to the parent; on the standard streams there is nothing to read.
+
+    PyMeshLab prints on the standard output.
+    """
+    tasks, answers = os.dup(0), os.dup(1)
+    for number, flags in ((0, os.O_RDONLY), (1, os.O_WRONLY)):
+        sink = os.open(os.devnull, flags)
+        os.dup2(sink, number)
+        os.close(sink)
+    return tasks, answers
+
+
+def _receive(tasks: int, waiting: SimpleQueue[bytes]) -> None:
+    """Pass on what the parent sends; when it has ended, end this process and its children.
+
+    Without buffers of Python, whose locks a forked process would wait for.
+    """
+    with suppress(EOFError, OSError):
+        while True:
+            waiting.put(_read(tasks))
+    shutil.rmtree(os.environ["TMPDIR"], ignore_errors=True)
+    if hasattr(os, "killpg") and os.getpgrp() == os.getpid():
+        os.killpg(0, signal.SIGKILL)
+    os._exit(1)
+
+
+def _read(descriptor: int) -> bytes:
+    return _exactly(descriptor, int.from_bytes(_exactly(descriptor, LENGTH), "big"))
+
+
+def _exactly(descriptor: int, count: int) -> bytes:
+    data = b""
+    while len(data) < count:
+        more = os.read(descriptor, count - len(data))
+        if not more:
+            raise EOFError
+        data += more
+    return data
+
+
+def _send(answers: int, message: object) -> None:
+    data = memoryview(framed(message))
+    while data:
+        data = data[os.write(answers, data) :]
+
+
+def _ended(task: Task, settings: WorkerSettings, answers: int) -> Ended:
+    """Do a task, and report how it ended."""
+    memory.reset_peak()
+    try:
+        module, _, name = task.function.partition(":")
+        function = getattr(importlib.import_module(module), name)
+        _send(answers, BEGUN)
+        with memory.limited(settings.memory):
+            value = function(task.argument, lambda message: _send(answers, message))
+        framed(value)
+    except Exception as error:
+        return _failed(error, settings.memory)._replace(memory=memory.peak())
+    return Ended(DONE, value, memory=memory.peak())
+
+
+def _failed(error: Exception, limit: int | None) -> Ended:
+    fault = machine.fault_of(error)
+    text = reason(fault or error)
+    is_memory = isinstance(error, MemoryError) or _NO_MEMORY in text
+    if is_memory and limit is not None:
+        text = f"needs more than the memory limit of {limit / memory.GIB:.3g} GiB"
+    return Ended(
+        MEMORY if is_memory else ERROR,
+        reason=text,
+        trace=traceback.format_exc(),
+        of_machine=fault is not None,
+        stops_all=machine.stops_all(error),
+    )

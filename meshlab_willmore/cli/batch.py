@@ -1,0 +1,242 @@
+"""Several inputs of `run`, `flip` and `measure`: the options of a batch, and what it prints."""
+
+from __future__ import annotations
+
+import re
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, closing, contextmanager, suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ..batch.shards import shard_of
+from ..batch.steplog import log
+from ..batch.summary import Summary, duration, failure
+from ..messages import WrongUse, note
+from . import progress
+from .errors import is_debug
+from .text import how_many_failed
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+    from ..batch.jobs import Job
+    from ..batch.records import Result
+    from ..batch.runner import Batch, Recipe
+
+# Where click keeps the options of a batch that were given.
+_GIVEN = "batch"
+_SIZE = re.compile(r"(\d+(?:\.\d+)?)\s*([KMGT]?)(?:i?B)?", re.IGNORECASE)
+_UNITS = {"": 0, "K": 1, "M": 2, "G": 3, "T": 4}
+_KIB = 1024
+# Between looks at what workers do.
+_SECONDS = 0.5
+_SHOWN_RUNNING = 3
+
+
+def _remember(ctx: click.Context, option: click.Parameter, value: Any) -> None:
+    if value not in (None, False):
+        ctx.meta.setdefault(_GIVEN, {})[option.name] = value
+
+
+def _bytes(text: str) -> int:
+    found = _SIZE.fullmatch(text.strip())
+    if not found:
+        raise WrongUse(f"--memory {text}: it must be a size such as 4G or 500M")
+    return int(float(found[1]) * _KIB ** _UNITS[found[2].upper()])
+
+
+def _option(*names: str, **given: Any) -> Callable[..., Any]:
+    return click.option(*names, expose_value=False, callback=_remember, **given)
+
+
+_OPTIONS = (
+    _option("--workers", type=click.IntRange(min=1), metavar="N", help="Meshes at a time."),
+    _option(
+        "--timeout",
+        type=click.FloatRange(min=0.0, min_open=True),
+        metavar="SECONDS",
+        help="The longest time for a mesh; then its worker is killed.",
+    ),
+    _option(
+        "--memory",
+        metavar="SIZE",
+        help="The most memory for a worker, such as 4G (Linux).",
+    ),
+    _option(
+        "--retries", type=click.IntRange(min=0), metavar="N", help="Try a failed mesh N times more."
+    ),
+    _option(
+        "--resume",
+        is_flag=True,
+        help="Go on with the batch in the file of --json: skip what it has.",
+    ),
+    _option("--retry-failed", is_flag=True, help="As --resume, and do again what failed there."),
+    _option(
+        "--stop/--keep-going",
+        default=False,
+        help="Stop at the first input that fails, or go on with the others (the default).",
+    ),
+    _option(
+        "--shard",
+        metavar="I/N",
+        help="Only share I of N of the inputs; auto reads SLURM's or Kubernetes' variables.",
+    ),
+    _option("--scheduler", metavar="ADDRESS", help="Run on the Dask cluster of this scheduler."),
+    _option("--summary", is_flag=True, help="Print a summary; on a terminal it comes anyway."),
+)
+json_file_option = _option(
+    "--json",
+    "log",
+    type=click.Path(path_type=Path),
+    metavar="FILE.jsonl",
+    help="Write a line of JSON for each mesh as it ends: outcome, time, memory, measures.",
+)
+
+
+def batch_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The options of a batch; a command gets them by `given_options`."""
+    for option in reversed(_OPTIONS):
+        command = option(command)
+    return command
+
+
+def given_options() -> dict[str, Any]:
+    """The options of a batch that were given."""
+    given: dict[str, Any] = click.get_current_context().meta.setdefault(_GIVEN, {})
+    return given
+
+
+def is_resumed() -> bool:
+    """Whether an earlier batch goes on, whose outputs exist."""
+    return bool(given_options().keys() & {"resume", "retry_failed"})
+
+
+def is_batch(jobs: Sequence[object]) -> bool:
+    """Whether worker processes are used: for several inputs, or with an option of a batch."""
+    return len(jobs) > 1 or bool(given_options().keys() - {"stop"})
+
+
+def run_batch(
+    recipe: Recipe,
+    jobs: Sequence[Job],
+    line_of: Callable[[Result, Job], str],
+    force: bool = False,
+    always: bool = False,
+) -> None:
+    """Run a batch; print a line for each mesh, errors, and the summary where it is wanted.
+
+    On a terminal the lines of meshes that are done are left out, unless `always`. Raises
+    `ClickException` in the end if an input failed.
+    """
+    from ..batch.runner import Batch
+
+    given = given_options()
+    summary = Summary()
+    by_name = {job.name: job for job in jobs}
+    is_shown = always or not sys.stdout.isatty()
+    with ExitStack() as stack:
+        options = _options(given, force, recipe.dry_run, stack)
+        batch = stack.enter_context(closing(Batch(recipe, jobs, options)))
+        for result in batch.earlier:
+            summary.add(result)
+            _report(result)
+        show = stack.enter_context(_progress(batch, summary))
+        for result in stack.enter_context(closing(batch.results())):
+            summary.add(result)
+            _log(result)
+            show()
+            for text in result.notes:
+                note(text)
+            if result.is_done:
+                if is_shown and (line := line_of(result, by_name[result.input])):
+                    click.echo(line)
+                continue
+            if result.trace and is_debug():
+                click.echo(result.trace, err=True)
+            if options.stop:
+                raise click.ClickException(failure(result))
+            _report(result)
+    if "summary" in given or sys.stdout.isatty():
+        click.echo("\n".join(summary.lines()))
+    if summary.failed:
+        raise click.ClickException(how_many_failed(summary.failed, summary.failed + summary.done))
+
+
+def _options(given: dict[str, Any], force: bool, dry_run: bool, stack: ExitStack) -> Any:
+    from ..batch.runner import BatchOptions
+
+    client = None
+    if "scheduler" in given:
+        client = stack.enter_context(_client(given["scheduler"]))
+    is_continued = is_resumed()
+    if is_continued and "log" not in given:
+        raise WrongUse("--resume needs --json FILE.jsonl, which says what is done")
+    return BatchOptions(
+        workers=given.get("workers"),
+        timeout=given.get("timeout"),
+        memory=_bytes(given["memory"]) if "memory" in given else None,
+        retries=given.get("retries", 0),
+        force=force,
+        log=None if dry_run else given.get("log"),
+        resume=is_continued,
+        retry_failed="retry_failed" in given,
+        stop="stop" in given or is_debug(),
+        shard=shard_of(given["shard"]) if "shard" in given else None,
+        client=client,
+    )
+
+
+@contextmanager
+def _client(address: str) -> Iterator[Client]:
+    from ..batch.cluster import client_of
+
+    client = client_of(address)
+    try:
+        yield client
+    finally:
+        client.close()
+
+
+def _report(result: Result) -> None:
+    if not result.is_done:
+        click.echo(f"Error: {failure(result)}", err=True)
+
+
+def _log(result: Result) -> None:
+    """Write to `--log` what the steps did."""
+    for line in result.lines:
+        log.info("%s", line)
+    if not result.is_done:
+        # This error is more important than one of the log.
+        with suppress(OSError):
+            log.info("error: %s", result.reason)
+
+
+@contextmanager
+def _progress(batch: Batch, summary: Summary) -> Iterator[Callable[[], None]]:
+    """Show a line on a terminal; gives a function to call after each mesh."""
+    if not sys.stderr.isatty():
+        yield lambda: None
+        return
+    before = summary.done + summary.failed
+    start = time.monotonic()
+
+    def text() -> str:
+        count = summary.done + summary.failed - before
+        running = [f"{Path(name).name}: {phase}" for name, phase in batch.running]
+        more = ["..."] if len(running) > _SHOWN_RUNNING else []
+        parts = [f"{summary.done} done, {summary.failed} failed"]
+        parts += [", ".join(running[:_SHOWN_RUNNING] + more)] if running else []
+        if count:
+            left = (time.monotonic() - start) / count * (len(batch.jobs) - count)
+            parts.append(f"about {duration(left)} left")
+        return "; ".join(parts)
+
+    with progress.shown("batch", len(batch.jobs)) as status:
+        status.next(text())
+        with progress.repeated(lambda: status.detail(text()), _SECONDS):
+            yield lambda: status.next(text())

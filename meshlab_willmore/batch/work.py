@@ -186,7 +186,7 @@ def _measures(ms: pymeshlab.MeshSet, work: Work) -> dict[str, Any] | None:
     if not work.is_measured or work.dry_run or ms.mesh_number() == 0:
         return None
     try:
-        return measured(ms)
+        return steplog.for_json(measured(ms))
     except native.ERRORS:
         if work.must_be_measured:
             raise
@@ -198,7 +198,7 @@ def measured(ms: pymeshlab.MeshSet) -> dict[str, Any]:
     totals = ms.apply_filter("get_willmore_measures")
     mesh = ms.current_mesh()
     sizes = {"vertices": mesh.vertex_number(), "faces": mesh.face_number()}
-    return steplog.for_json({**sizes, **totals})
+    return {**sizes, **totals}
 
 
 def warm_up(steps: tuple[Step, ...], say: Say) -> None:

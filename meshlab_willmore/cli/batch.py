@@ -32,6 +32,8 @@ _GIVEN = "batch"
 _SIZE = re.compile(r"(\d+(?:\.\d+)?)\s*([KMGT]?)(?:i?B)?", re.IGNORECASE)
 _UNITS = {"": 0, "K": 1, "M": 2, "G": 3, "T": 4}
 _KIB = 1024
+# The ending of files of records.
+RECORDS = ".jsonl"
 # Between looks at what workers do.
 _SECONDS = 0.5
 _SHOWN_RUNNING = 3
@@ -125,19 +127,19 @@ def run_batch(
     jobs: Sequence[Job],
     line_of: Callable[[Result, Job], str],
     force: bool = False,
-    always: bool = False,
+    is_listed: bool = False,
 ) -> None:
     """Run a batch; print a line for each mesh, errors, and the summary where it is wanted.
 
-    On a terminal the lines of meshes that are done are left out, unless `always`. Raises
-    `ClickException` in the end if an input failed.
+    On a terminal the lines of meshes that are done are left out, unless they are what is wanted
+    (`is_listed`). Raises `ClickException` in the end if an input failed.
     """
     from ..batch.runner import Batch
 
     given = given_options()
     summary = Summary()
     by_name = {job.name: job for job in jobs}
-    is_shown = always or not sys.stdout.isatty()
+    is_shown = is_listed or not sys.stdout.isatty()
     with ExitStack() as stack:
         options = _options(given, force, recipe.dry_run, stack)
         batch = stack.enter_context(closing(Batch(recipe, jobs, options)))

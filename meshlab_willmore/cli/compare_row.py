@@ -1,32 +1,23 @@
-"""One row of a comparison, computed in a subprocess.
+"""One row of a comparison, computed in a worker process of a batch.
 
-A native filter can't be interrupted, and may crash. The subprocess gets its task as a line on its
-standard input, and ends when that is closed: with the parent, however that ended. It answers with
-lines of JSON: the name of each phase that begins, and the outcome last.
+A native filter can't be interrupted, and may crash. Each row gets a fresh process.
 """
 
 from __future__ import annotations
 
-import faulthandler
-import json
 import math
-import os
-import signal
-import subprocess
-import sys
-import threading
 import time
-import traceback
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable
+from contextlib import closing
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from .. import machine
+from ..batch.pool import STARTING, PoolSettings, Seat
+from ..batch.process import DONE, TIMEOUT, Phase, Task
+from ..machine import core_count
 from ..mesh_files import loading
 from ..mesh_files.paths import check_input
-from ..messages import WrongUse, reason
-from ..temporary_files import temporary_folder
+from ..messages import WrongUse
 
 if TYPE_CHECKING:
     from ..compare.reference import Reference, Sphere, Torus
@@ -40,10 +31,7 @@ MEASURING = "measuring"
 
 REFERENCES = "sphere, sphere:2 or torus:3,1"
 
-# No file of the working folder may hide a module.
-_PROGRAM = "import sys; sys.path[:] = {path!r}; from {module} import main; main()"
-# The exit code of a subprocess whose filter takes too long.
-_TOO_SLOW = 1
+_COMPUTE = f"{__name__}:compute"
 
 
 class Comparison(NamedTuple):
@@ -70,143 +58,54 @@ class Outcome(NamedTuple):
     trace: str = ""
 
 
+class Computation(NamedTuple):
+    """The argument of `compute`: what is compared, a filter and its parameters."""
+
+    comparison: Comparison
+    filter: str
+    given: dict[str, Any]
+
+
 def run(comparison: Comparison, row: Row, notify: Callable[[str], None]) -> Outcome:
-    """Compute one row; `notify` is called with each phase that begins."""
-    task = {**comparison._asdict(), "filter": row.filter, "given": row.given}
-    phase, start = READING, time.monotonic()
-    with _subprocess() as process:
-        for answer in _answers(process, task):
-            if not isinstance(answer, str):
-                return Outcome(**answer)
-            phase, start = answer, time.monotonic()
-            notify(phase)
-        code = process.wait()
-    # A filter may also end the process with that code, but sooner; clocks of two processes differ.
-    was_long = time.monotonic() - start > 0.9 * comparison.timeout
-    if phase == RUNNING and code == _TOO_SLOW and was_long:
+    """Compute one row in a process of its own; `notify` is called with each phase that begins."""
+
+    def listen(message: Any) -> None:
+        if message != STARTING:
+            notify(message.name)
+
+    task = Task(_COMPUTE, Computation(comparison, row.filter, row.given))
+    with closing(Seat(PoolSettings(threads=core_count()))) as seat:
+        ended = seat.attempt(task, listen).ended
+    if ended.status == DONE:
+        seconds, quality = ended.value
+        return Outcome(seconds, quality)
+    if ended.status == TIMEOUT:
         return Outcome(timed_out=True)
-    if code < 0:
-        return Outcome(error=f"crashed ({signal.Signals(-code).name})")
-    return Outcome(error=f"the process ended with exit code {code}")
+    return Outcome(error=ended.reason, of_machine=ended.of_machine, trace=ended.trace)
 
 
-@contextmanager
-def _subprocess() -> Iterator[subprocess.Popen[str]]:
-    """A process with a folder for temporary files; both are removed in the end."""
-    program = _PROGRAM.format(path=sys.path, module=__name__)
-    with temporary_folder() as place:
-        folder = str(place)
-        process = subprocess.Popen(
-            [sys.executable, "-c", program],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            text=True,
-            env={**os.environ, "TMPDIR": folder, "TEMP": folder, "TMP": folder},
-            # Ctrl-C on a terminal is for the parent alone, which then ends this process.
-            start_new_session=True,
-        )
-        try:
-            yield process
-        finally:
-            if hasattr(os, "killpg") and process.poll() is None:
-                # With the process in which it loads a mesh: the session is a group.
-                with suppress(ProcessLookupError):
-                    os.killpg(process.pid, signal.SIGKILL)
-            process.kill()
-            process.communicate()
-
-
-def _answers(process: subprocess.Popen[str], task: dict[str, Any]) -> Iterator[Any]:
-    """What the process answers, until it ends."""
-    assert process.stdin is not None
-    assert process.stdout is not None
-    try:
-        process.stdin.write(json.dumps(task) + "\n")
-        process.stdin.flush()
-    except BrokenPipeError:
-        return
-    for line in process.stdout:
-        yield json.loads(line)
-
-
-# --- in the subprocess -------------------------------------------------------------------------
-
-
-def main() -> None:
-    """Do the task on the standard input."""
-    answers = _own_stream()
-    task = json.loads(sys.stdin.readline())
-    threading.Thread(target=_end_with_parent, daemon=True).start()
-
-    def send(answer: object) -> None:
-        print(json.dumps(answer), file=answers, flush=True)
-
-    try:
-        outcome = _outcome(send=send, **task)
-    except Exception as error:
-        fault = machine.fault_of(error)
-        outcome = Outcome(
-            error=reason(fault or error),
-            of_machine=fault is not None,
-            trace=traceback.format_exc(),
-        )
-    send(outcome._asdict())
-
-
-def _own_stream() -> IO[str]:
-    """A stream to the parent; the standard output, on which PyMeshLab prints, goes nowhere."""
-    answers = os.fdopen(os.dup(1), "w")
-    with open(os.devnull, "wb") as sink:
-        os.dup2(sink.fileno(), 1)
-    return answers
-
-
-def _end_with_parent() -> None:
-    """Wait for the end of the standard input, without Python's buffer and its lock."""
-    os.read(0, 1)
-    os._exit(1)
-
-
-def _outcome(
-    source: str,
-    reference: str | None,
-    timeout: float,
-    filter: str,
-    given: dict[str, Any],
-    send: Callable[[str], None],
-) -> Outcome:
+def compute(task: Computation, say: Callable[[Any], None]) -> tuple[float | None, dict[str, Any]]:
+    """The seconds of a filter (None if there is none), and the quality of its mesh."""
     from ..compare.quality import quality_of
     from ..compare.rows import warm_up
     from ..demo.models import surface_of
 
-    ms = loading.loaded(Path(source))
+    ms = loading.loaded(Path(task.comparison.source))
     faces = surface_of(ms).faces
     if len(faces) == 0:
         raise ValueError("the mesh has no faces, it is a point cloud")
+    reference = task.comparison.reference
     surface = read_reference(reference) if reference else None
     seconds = None
-    if filter:
-        send(WARMING)
-        warm_up(filter, given)
-        send(RUNNING)
-        with _ended_after(timeout):
-            start = time.perf_counter()
-            ms.apply_filter(filter, **given)
-            seconds = time.perf_counter() - start
-    send(MEASURING)
-    return Outcome(seconds, quality_of(ms, faces, surface)._asdict())
-
-
-@contextmanager
-def _ended_after(seconds: float) -> Iterator[None]:
-    """End the process if what is inside takes longer, even in native code."""
-    with open(os.devnull, "w") as sink:
-        faulthandler.dump_traceback_later(seconds, exit=True, file=sink)
-        try:
-            yield
-        finally:
-            faulthandler.cancel_dump_traceback_later()
+    if task.filter:
+        say(Phase(WARMING))
+        warm_up(task.filter, task.given)
+        say(Phase(RUNNING, task.comparison.timeout))
+        start = time.perf_counter()
+        ms.apply_filter(task.filter, **task.given)
+        seconds = time.perf_counter() - start
+    say(Phase(MEASURING, math.inf))
+    return seconds, quality_of(ms, faces, surface)._asdict()
 
 
 # --- the reference -----------------------------------------------------------------------------

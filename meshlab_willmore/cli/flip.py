@@ -1,4 +1,4 @@
-"""`meshlab-willmore flip`: the flips on one mesh, with the filter's parameters as options."""
+"""`meshlab-willmore flip`: the flips on meshes, with the filter's parameters as options."""
 
 from __future__ import annotations
 
@@ -7,17 +7,22 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..batch.jobs import Job, plan
 from ..mesh_files import loading
-from ..mesh_files.paths import check_output, only_input
-from ..messages import reason
+from ..mesh_files.paths import Output, find_inputs
+from ..messages import WrongUse, reason
 from ..options import FILTER
 from . import progress
 from .arguments import SeveralParts, check_flip_options, flip_options, force_option, mask_option
+from .batch import batch_options, is_batch, is_resumed, json_file_option, run_batch
 from .errors import debug_option
 from .text import flip_results
 
 if TYPE_CHECKING:
     import pymeshlab
+
+    from ..batch.records import Result
+    from ..mlx.steps import Step
 
 EXAMPLES = """\b
 Examples:
@@ -25,37 +30,75 @@ Examples:
   meshlab-willmore flip part.stl flipped.stl --featuredeg 30
   meshlab-willmore flip scan.ply flipped.ply --energy willmore --search "variable depth"
   meshlab-willmore flip scan.obj flipped.ply -m vc wt --force
+  meshlab-willmore flip 'scans/*.ply' 'out/{name}.ply' --timeout 60 --json flips.jsonl
 """
 
 
-@click.command("flip", cls=SeveralParts, short_help="Flip the edges of a mesh.", epilog=EXAMPLES)
-@click.argument("source", metavar="IN")
-@click.argument("target", metavar="OUT", type=click.Path(path_type=Path))
+@click.command("flip", cls=SeveralParts, short_help="Flip the edges of meshes.", epilog=EXAMPLES)
+@click.argument("sources", metavar="IN...", nargs=-1, required=True)
+@click.argument("target", metavar="OUT")
 @flip_options()
 @mask_option()
 @force_option
+@json_file_option
+@batch_options
 @debug_option
-def command(source: str, target: Path, parts: tuple[str, ...], force: bool, **given: Any) -> None:
+def command(
+    sources: tuple[str, ...], target: str, parts: tuple[str, ...], force: bool, **given: Any
+) -> None:
     """Flip edges of the mesh IN as long as an energy falls, and save it as OUT.
 
     Vertices never move. The ending of OUT determines the format. OUT is written atomically. Notes
     say what was lost in loading or saving.
-    """
-    from ..mesh_files.saving import SaveOptions, save
 
+    Several meshes are a batch, as in 'run'; then OUT needs a placeholder, such as
+    'out/{name}_flipped.ply'.
+    """
     chosen = {name: value for name, value in given.items() if value is not None}
     check_flip_options(chosen)
-    path = only_input(source, "flip takes one, run takes all")
-    check_output(target, force)
+    inputs = find_inputs(sources)
+    output = Output(target, parts)
+    if len(inputs) > 1 and not output.has_placeholder:
+        example = "'{name}_flipped.ply'"
+        raise WrongUse(f"{len(inputs)} inputs need an output with a placeholder, such as {example}")
+    jobs = plan(inputs, [output], False, force or is_resumed())
+    if is_batch(jobs):
+        from ..batch.runner import Recipe
+
+        run_batch(Recipe((_step(chosen),), "flip"), jobs, _line, force)
+        return
+    (job,) = jobs
+    click.echo(_line(_flip(job, chosen, force), job))
+
+
+def _step(given: dict[str, Any]) -> Step:
+    from ..mlx.steps import Param, Step
+
+    return Step(FILTER, tuple(Param(name, "", value) for name, value in given.items()))
+
+
+def _flip(job: Job, given: dict[str, Any], force: bool) -> Result:
+    """Flip the edges of one mesh in this process."""
+    from ..batch.process import DONE
+    from ..batch.records import Result, StepResult
+    from ..mesh_files.saving import SaveOptions, save
+
+    (path,), (output,) = job.inputs, job.outputs
     with progress.shown(path.name) as status:
         status.begin("reading")
         ms = loading.loaded(path)
         status.begin("flipping")
         with progress.with_details(status):
-            returned = _flipped(ms, path, chosen)
-        status.begin(f"saving {target}")
-        save(ms, target, SaveOptions(parts, force, path.parent))
-    click.echo(f"{path} -> {target}: {flip_results(returned)}, {returned['seconds']:.1f} s")
+            returned = _flipped(ms, path, given)
+        status.begin(f"saving {output.path}")
+        save(ms, output.path, SaveOptions(output.parts, force, path.parent))
+    return Result(job.name, DONE, returned=(StepResult(1, FILTER, 0.0, returned),))
+
+
+def _line(result: Result, job: Job) -> str:
+    (returned,) = (step.returned for step in result.returned)
+    target = job.outputs[0].path
+    return f"{job.name} -> {target}: {flip_results(returned)}, {returned['seconds']:.1f} s"
 
 
 def _flipped(ms: pymeshlab.MeshSet, path: Path, given: dict[str, Any]) -> dict[str, Any]:

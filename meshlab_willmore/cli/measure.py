@@ -3,24 +3,27 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..batch.jobs import Job, plan
 from ..batch.steplog import for_json
 from ..machine import stops_all
 from ..mesh_files import loading
 from ..mesh_files.paths import find_inputs
 from ..messages import WrongUse, one_line, reason
 from . import progress
-from .arguments import json_option
+from .batch import RECORDS, batch_options, given_options, is_batch, run_batch
 from .errors import debug_option, failure_of, is_debug
-from .text import fitted, how_many_failed, table
+from .scripts import STANDARD_STREAM
+from .text import fitted, table
 
 if TYPE_CHECKING:
-    import pymeshlab
+    from ..batch.records import Result
 
 EXAMPLES = """\b
 Examples:
@@ -42,55 +45,88 @@ LEGEND = (
 )
 
 
-@click.command("measure", short_help="Print the totals of meshes.", epilog=EXAMPLES)
+class _OptionalFile(click.Command):
+    """A command whose ``--json`` has a value only if that is a file of records."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Give ``--json`` its value."""
+        rest = list(args)
+        for place, word in enumerate(args):
+            if word == "--":
+                break
+            following = args[place + 1] if place + 1 < len(args) else ""
+            if word == "--json" and not following.endswith(RECORDS):
+                rest[place] = f"--json={STANDARD_STREAM}"
+        return super().parse_args(ctx, rest)
+
+
+@click.command(
+    "measure", cls=_OptionalFile, short_help="Print the totals of meshes.", epilog=EXAMPLES
+)
 @click.argument("files", metavar="IN...", nargs=-1, required=True)
-@json_option
+@click.option(
+    "--json",
+    "json_file",
+    metavar="[FILE.jsonl]",
+    help="Print JSON; or write a line of it into the file for each mesh as it ends.",
+)
+@batch_options
 @debug_option
-def command(files: tuple[str, ...], as_json: bool) -> None:
+def command(files: tuple[str, ...], json_file: str | None) -> None:
     """Print Willmore energy, area and curvatures of meshes as a table.
 
-    If a file can't be measured, the error is printed, the others are still measured, and the exit
-    code is 1. Notes say what was lost in loading.
+    Several meshes are a batch, as in 'run'. If a file can't be measured, the error is printed, the
+    others are still measured, and the exit code is 1. Notes say what was lost in loading.
     """
     inputs = find_inputs(files)
     problems = [one_line(problem) for _, problem in inputs if problem is not None]
     if len(problems) == len(inputs):
         raise WrongUse("; ".join(problems))
-    for text in problems:
-        click.echo(f"Error: {text}", err=True)
-    measured = _measure_all([path for path, problem in inputs if problem is None])
-    if as_json:
-        click.echo(json.dumps([for_json(row) for row in measured], indent=2))
-    elif measured:
-        click.echo(_table(measured))
-    if not measured and len(inputs) == 1:
-        click.get_current_context().exit(1)
-    if len(measured) < len(inputs):
-        raise click.ClickException(how_many_failed(len(inputs) - len(measured), len(inputs)))
+    as_json = json_file == STANDARD_STREAM
+    if json_file is not None and not as_json:
+        given_options()["log"] = Path(json_file)
+    measured: list[dict[str, Any]] = []
+    try:
+        _measure(plan(inputs, (), False, False), measured)
+    finally:
+        if as_json:
+            click.echo(json.dumps([for_json(row) for row in measured], indent=2))
+        elif measured:
+            click.echo(_table(measured))
 
 
-def _measure_all(paths: list[Path]) -> list[dict[str, Any]]:
-    """The totals of each file that can be measured; errors of the others are printed."""
-    rows = []
-    with progress.shown("measure", len(paths)) as status:
-        for path in paths:
+def _measure(jobs: list[Job], measured: list[dict[str, Any]]) -> None:
+    """Measure meshes, and add a row for each to a list, in the order of the jobs."""
+    if not is_batch(jobs):
+        measured.append(_measure_here(*jobs[0].inputs))
+        return
+    from ..batch.runner import Recipe
+
+    def keep(result: Result, job: Job) -> str:
+        measured.append({"file": job.name, **(result.before or {})})
+        return ""
+
+    try:
+        run_batch(Recipe((), "measure", must_be_measured=True), jobs, keep, is_listed=True)
+    finally:
+        order = {job.name: place for place, job in enumerate(jobs)}
+        measured.sort(key=lambda row: order[row["file"]])
+
+
+def _measure_here(path: Path) -> dict[str, Any]:
+    """The row of a mesh, measured in this process."""
+    try:
+        with progress.shown("measure", 1) as status:
             status.next(str(path))
-            try:
-                ms = loading.loaded(path)
-                with progress.with_details(status):
-                    rows.append(_measure(ms, path))
-            except Exception as error:
-                if stops_all(error) or is_debug():
-                    raise
-                click.echo(f"Error: {failure_of(str(path), error, reason)}", err=True)
-    return rows
+            ms = loading.loaded(path)
+            with progress.with_details(status):
+                from ..batch.work import measured
 
-
-def _measure(ms: pymeshlab.MeshSet, path: Path) -> dict[str, Any]:
-    totals = ms.apply_filter("get_willmore_measures")
-    mesh = ms.current_mesh()
-    sizes = {"vertices": mesh.vertex_number(), "faces": mesh.face_number()}
-    return {"file": str(path), **sizes, **totals}
+                return {"file": str(path), **measured(ms)}
+    except Exception as error:
+        if stops_all(error) or is_debug():
+            raise
+        raise click.ClickException(failure_of(str(path), error, reason)) from error
 
 
 def _table(measured: Iterable[dict[str, Any]]) -> str:
@@ -99,5 +135,7 @@ def _table(measured: Iterable[dict[str, Any]]) -> str:
     rows: list[tuple[str, ...]] = [HEADER]
     for row in measured:
         sizes = (row["file"], str(row["vertices"]), str(row["faces"]))
-        rows.append((*sizes, *(significant(row[name]) for name in MEASURES)))
+        # Records have null for infinity.
+        values = (math.inf if row[name] is None else row[name] for name in MEASURES)
+        rows.append((*sizes, *map(significant, values)))
     return table(fitted(rows), LEGEND)

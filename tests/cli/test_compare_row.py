@@ -1,6 +1,5 @@
 """The subprocesses of a comparison: they end in time, alone, and leave nothing."""
 
-import json
 import signal
 import subprocess
 import sys
@@ -10,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from meshlab_willmore.batch import process
 from meshlab_willmore.cli import compare_row
 from meshlab_willmore.cli.compare_row import Comparison, Outcome
 from meshlab_willmore.compare import rows
@@ -73,55 +73,25 @@ def test_crash_and_error_are_reported(task):
     assert (outcome.quality, outcome.timed_out) == (None, False)
 
 
-def test_process_that_does_not_start_is_reported(task, monkeypatch):
-    monkeypatch.setattr(compare_row, "_PROGRAM", "import sys; sys.exit(3) # {path} {module}")
-    assert compare_row.run(task, OWN, print).error == "the process ended with exit code 3"
-
-
 def test_filter_that_exits_is_not_called_too_slow(task, monkeypatch):
     program = (
-        f"print({json.dumps(compare_row.RUNNING)!r}); raise SystemExit(1) # {{path}} {{module}}"
+        "import sys; sys.path[:] = {path!r}; from meshlab_willmore.cli import compare_row\n"
+        "compare_row.compute = lambda *_: sys.exit(1)\n"
+        "from {module} import main; main()"
     )
-    monkeypatch.setattr(compare_row, "_PROGRAM", program)
+    monkeypatch.setattr(process, "_PROGRAM", program)
     assert compare_row.run(task, OWN, print).error == "the process ended with exit code 1"
 
 
 def test_filter_is_warmed_up_before_timing(task, monkeypatch):
     events = []
     monkeypatch.setattr(rows, "warm_up", lambda *given: events.append(given))
-    given = {"filter": OWN.filter, "given": OWN.given}
-    compare_row._outcome(**task._asdict(), **given, send=events.append)
-    warmed = (OWN.filter, OWN.given)
-    assert events == [compare_row.WARMING, warmed, compare_row.RUNNING, compare_row.MEASURING]
-
-
-@pytest.mark.slow
-def test_output_of_a_filter_is_no_answer(task, monkeypatch):
-    noisy = (
-        "import os, sys; sys.path[:] = {path!r}; from {module} import main, Outcome\n"
-        "import {module} as row\n"
-        "row._outcome = lambda **_: Outcome(float(os.write(1, b'noise\\n')))\n"
-        "main()"
-    )
-    monkeypatch.setattr(compare_row, "_PROGRAM", noisy)
-    assert compare_row.run(task, OWN, print) == Outcome(6.0)
-
-
-def test_files_of_a_crashed_process_are_removed(task, monkeypatch):
-    # The fixture looks into the folder.
-    program = "import os, tempfile; tempfile.mkdtemp(); os.abort() # {path} {module}"
-    monkeypatch.setattr(compare_row, "_PROGRAM", program)
-    assert compare_row.run(task, OWN, print).error == "crashed (SIGABRT)"
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="loads in a process of its own on Linux")
-def test_hanging_load_is_killed_with_its_process(monkeypatch):
-    """Else the end would wait for it: it holds the pipe of the answers."""
-    program = "import os, time; os.write(1, b'%d\\n' % os.fork()); time.sleep(1000)"
-    monkeypatch.setattr(compare_row, "_PROGRAM", program)
-    with compare_row._subprocess() as process:
-        children = {int(process.stdout.readline()) for _ in range(2)}
-    assert 0 in children
+    compare_row.compute(compare_row.Computation(task, OWN.filter, OWN.given), events.append)
+    warming, warmed, running, measuring = events
+    assert warmed == (OWN.filter, OWN.given)
+    assert warming.name == compare_row.WARMING
+    assert running == (compare_row.RUNNING, task.timeout)
+    assert measuring == (compare_row.MEASURING, float("inf"))
 
 
 @pytest.mark.slow
@@ -140,7 +110,7 @@ def test_time_limit_is_for_the_filter_alone(task, monkeypatch):
         "rows.warm_up = lambda *_: time.sleep(1.5)\n"
         "main()"
     )
-    monkeypatch.setattr(compare_row, "_PROGRAM", slow)
+    monkeypatch.setattr(process, "_PROGRAM", slow)
     native = Row("quick", "set_selection_all", {})
     outcome = compare_row.run(task._replace(timeout=1.0), native, print)
     assert (outcome.timed_out, outcome.error) == (False, None)

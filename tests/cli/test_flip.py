@@ -80,9 +80,9 @@ def test_each_parameter_of_the_filter_is_an_option_of_its_type():
 @pytest.mark.parametrize(
     ("arguments", "code", "line"),
     [
-        (["cube.ply"], 2, "Missing argument 'OUT'."),
+        (["cube.ply"], 2, "Missing argument 'IN...'."),
         (["cub.ply", "out.ply"], 2, "there is no file cub.ply; there is cube.ply"),
-        (["*.ply", "out.ply"], 2, "*.ply matches 2 files; flip takes one, run takes all"),
+        (["*.ply", "out.ply"], 2, "2 inputs need an output with a placeholder, such as"),
         (["cube.ply", "two.ply"], 2, "two.ply already exists; use --force to overwrite"),
         (["cube.ply", "out.foo"], 2, "the format of out.foo is unknown: PyMeshLab writes no .foo"),
         (["cube.ply", "o.ply", "--energy", "x"], 2, "Invalid value for '--energy': 'x' is not one"),

@@ -25,9 +25,9 @@ common normal, d is their distance along it; where they do not cross, the flip f
 
 import math
 
-from ..mesh.halfedge import apex
+from ..mesh.halfedge import diamond
 from ..mesh.jit import at, inlined, inner
-from ..mesh.points import dot, point, subtract
+from ..mesh.points import dot, subtract
 
 # What a bound may exceed the limit by, at unit scale: the rounding of some thousand distances.
 # Without it, no edge of a plane that is not parallel to two axes could be flipped at a limit of 0.
@@ -65,23 +65,26 @@ def segment_distance(a, b, c, d):
     return math.sqrt(x * x + y * y + z * z)
 
 
-@inner
+@inlined
+def _goes_before(a, b):
+    return a.x < b.x or (a.x == b.x and (a.y < b.y or (a.y == b.y and a.z <= b.z)))
+
+
+@inlined
+def _in_order(a, b):
+    return (a, b) if _goes_before(a, b) else (b, a)
+
+
+@inlined
 def diagonal_distance(mesh, h):
     """Return the distance between i-j and k-l; it has the same bits before and after the flip."""
-    t = mesh.twin[at(h)]
-    i, j = mesh.origin[at(h)], mesh.origin[at(t)]
-    k, l = apex(mesh, h), apex(mesh, t)
-    i, j = min(i, j), max(i, j)
-    k, l = min(k, l), max(k, l)
-    if k < i:
-        i, j, k, l = k, l, i, j
-    vertices = mesh.vertices
-    return segment_distance(
-        point(vertices, i), point(vertices, j), point(vertices, k), point(vertices, l)
-    )
+    i, j, k, l = diamond(mesh, h)
+    a, b = _in_order(i, j)
+    c, d = _in_order(k, l)
+    return segment_distance(a, b, c, d) if _goes_before(a, c) else segment_distance(c, d, a, b)
 
 
-@inner
+@inlined
 def _bound_with(mesh, h):
     """Return the bound of the faces at `h` with one more distance of their diagonals."""
     one, other = mesh.deviation[at(h // 3)], mesh.deviation[at(mesh.twin[at(h)] // 3)]
@@ -94,7 +97,7 @@ def deviates(mesh, h, limit):
     return limit < math.inf and _bound_with(mesh, h) > limit + SLACK
 
 
-@inner
+@inlined
 def add_deviation(mesh, h):
     """Bring the bounds of the two faces at `h`, which has just been flipped, up to date."""
     bound = _bound_with(mesh, h)

@@ -8,7 +8,9 @@ import pytest
 
 from meshlab_willmore import script
 from meshlab_willmore.measure import measures, triangle_shapes
-from tests.meshset.conftest import FLIP, SAMPLES
+from meshlab_willmore.mesh.build import build, faces_of
+from tests.meshset.conftest import FLIP, SAMPLES, set_of
+from tests.search.ways import scramble
 
 FOLDER = Path(__file__).parents[1] / "filter_scripts"
 SCRIPTS = sorted(FOLDER.glob("*.mlx"))
@@ -30,8 +32,8 @@ def willmore(ms):
     return measures(mesh.vertex_matrix(), mesh.face_matrix()).willmore_energy
 
 
-def test_there_are_five():
-    assert len(SCRIPTS) == 5
+def test_there_are_six():
+    assert len(SCRIPTS) == 6
 
 
 @pytest.mark.parametrize("path", SCRIPTS, ids=lambda path: path.stem)
@@ -53,6 +55,20 @@ def test_clean_and_flip_a_face_scan():
     topology = ms.get_topological_measures()
     assert topology["non_two_manifold_edges"] == topology["non_two_manifold_vertices"] == 0
     assert topology["unreferenced_vertices"] == 0
+
+
+@pytest.mark.heavy
+def test_the_faithful_script_finds_the_creases_of_a_scrambled_box_back():
+    box = pymeshlab.MeshSet()
+    box.create_cube()
+    box.meshing_surface_subdivision_midpoint(iterations=3, threshold=pymeshlab.PureValue(0.0))
+    vertices, faces = box.current_mesh().vertex_matrix(), box.current_mesh().face_matrix()
+    ms = set_of(vertices, faces_of(scramble(build(vertices, faces), 0, flips_per_edge=1)))
+    bends = measures(vertices, faces).absolute_mean_curvature
+    flips = run("faithful.mlx", ms)[FLIP].returned
+    assert flips["absolute_mean_curvature_before"] > 1.2 * bends
+    assert flips["absolute_mean_curvature_after"] == pytest.approx(bends, rel=1e-3)
+    assert flips["mean_shape_after"] > flips["mean_shape_before"]
 
 
 @pytest.mark.heavy

@@ -48,7 +48,8 @@ class Search(NamedTuple):
         Whether flips go to and fro, so that their number says nothing of the result: then the edges
         that have changed are counted.
     warm_starts : tuple of str
-        Energies along which greedy descent makes one more start each.
+        Energies along which greedy descent makes one more start each. Chains begin at the better
+        one of the first of them and the mesh itself.
     """
 
     run: Callable
@@ -60,7 +61,7 @@ class Search(NamedTuple):
 SEARCHES = {
     "parallel greedy": Search(parallel_greedy.run, NO_FLIP),
     "greedy": Search(greedy.run, NO_FLIP),
-    "variable depth": Search(variable_depth.run, NO_CHAIN),
+    "variable depth": Search(variable_depth.run, NO_CHAIN, warm_starts=("delaunay",)),
     "annealing": Search(annealing.run, NO_FLIP, is_random=True),
     "thorough": Search(multistart.run, NO_CHAIN, warm_starts=("delaunay", "mean curvature")),
 }
@@ -103,24 +104,24 @@ class FlipResult(NamedTuple):
         fell, in its unit: radians; the unit of the coordinates times
         radians for "mean curvature", its square for "area", none for "delaunay". The energy
         "virtual willmore" is not a function of the mesh. For it, the gain is the sum of the cost
-        reductions with the greedy searches and "variable depth" (which judges chains by the
-        Willmore energy, so that the sum can be negative), and with the other searches the drop of
-        the Willmore energy, in the form that counts every interior edge.
+        reductions with the greedy searches, and with the other searches the drop of the Willmore
+        energy, in the form that counts every interior edge.
     willmore_before, willmore_after : float
         Willmore energy of the mesh, as `meshlab_willmore.measure.willmore_energy` returns it:
         summed over interior vertices. The flips lower twice the sum of the intersection angles over
         all interior edges. On a closed mesh the two differ by a constant. With a boundary, the
         Willmore energy leaves out the share of the edges at boundary vertices, and can rise.
     converged : bool
-        Whether no allowed flip lowers the energy any more (with "variable depth": no allowed chain
-        of flips), in each pass when it ended. Flips are forbidden by the connectivity, by locks and
-        guards and, with "virtual willmore", by the option `monotone`: if True, flips that raise the
-        Willmore energy, if False, flips to an edge that was flipped away before. So other flips may
-        be left that lower the energy. A second run from the result makes no flip, except: with
-        `monotone` False; with "annealing" and "thorough", which may find more; with "variable
-        depth" where the next flips of a chain tie, as their order, which then decides, depends on
-        that of the faces; with `featuredeg` and `maxdeviation`, as creases are found in the input,
-        and deviations are counted from it; with several passes, as each undoes flips of another;
+        Whether no allowed flip lowers the energy any more (with "variable depth": none of the
+        chains of flips that `meshlab_willmore.search.variable_depth` tries), in each pass when it
+        ended. Flips are forbidden by the connectivity, by locks and guards and, with "virtual
+        willmore", by the option `monotone`: if True, flips that raise the Willmore energy, if
+        False, flips to an edge that was flipped away before. So other flips may be left that lower
+        the energy. A second run from the result makes no flip, except: with `monotone` False; with
+        "annealing" and "thorough", which may find more; with "variable depth" where flips tie, as
+        their order, which then decides, depends on that of the faces; with `featuredeg` and
+        `maxdeviation`, as creases are found in the input, and deviations are counted from it; with
+        several passes, as each undoes flips of another;
         and where flips that keep the Willmore energy go in circles, which the search stops after
         ten rounds.
     reason : str
@@ -254,25 +255,27 @@ def optimize_flips(
         - "greedy": one flip after another, always the one with the largest cost reduction.
         - "parallel greedy": at once all flips with a larger cost reduction than any other around
           them, on all cores; much quicker, as good, and the same for any number of threads.
-        - "variable depth": "greedy" first, then chains of flips that may go through a loss, until
-          no chain helps; slower, and depends far less on the initial triangulation. Large meshes
-          are searched in parts, on all cores, without `maxflips` and `checkintersections`. With the
-          virtual Willmore energy, that energy ranks the flips of a chain, and the Willmore energy
-          decides whether the chain helps.
+        - "variable depth": "greedy" first, or greedy flips along "delaunay" and then "greedy" if
+          that ends lower, then chains of flips that may go through a loss, until no chain helps;
+          slower, and depends far less on the initial triangulation. Large meshes are searched in
+          parts, on all cores, without `maxflips` and `checkintersections`. With the virtual
+          Willmore energy, that energy ranks the flips of a chain, and the Willmore energy decides
+          whether the chain helps.
         - "annealing": "greedy" first, then random flips that may go through a loss, less so as the
           temperature falls, then "greedy" again. Never worse than "greedy", but "variable depth"
           gets lower in the same time, on large meshes far lower.
-        - "thorough": "variable depth" from several starts, which are the mesh itself and the
-          results of greedy flips along other energies; the best result counts.
+        - "thorough": "variable depth" from the mesh itself, and from the result of greedy flips
+          along "mean curvature"; the better result counts.
 
-        With the virtual Willmore energy, the last two compare results by the Willmore energy.
+        With the virtual Willmore energy, the last three compare results by the Willmore energy.
     depth : int
         Most flips of a chain, 1 to 100, for "variable depth" and "thorough"; one more at the few
         places where the triangles are bad. The chains from one edge look at 10,000 edges at most,
         which is all of them up to six flips at the largest `breadth`.
     breadth : int
         How many flips each chain tries as its second one, 1 to 12; half as many as the third, and
-        so on. 1 is the quickest; larger values, with more depth, leave nearly every local minimum.
+        so on; only where chains have helped, and where the triangles are bad. 1 is the quickest;
+        larger values, with more depth, leave nearly every local minimum.
     sweeps : int
         Number of temperatures of "annealing"; at each it tries as many flips as there are edges.
         The time grows in proportion.

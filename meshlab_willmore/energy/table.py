@@ -4,7 +4,11 @@ A new energy is a module with `cost_reduction` and `total`, and a row here. Noth
 needs Numba; modules are named as text, and imported where they are compiled.
 """
 
+import math
 from typing import NamedTuple
+
+# Radians. Nearly all chains that help lose less, and most of the others more.
+MOST_LOSS = 6.0
 
 
 class Energy(NamedTuple):
@@ -28,6 +32,9 @@ class Energy(NamedTuple):
     is_narrow : bool
         Whether a cost reduction depends on the two faces at the edge alone, so that a flip changes
         only those of the sides of its diamond.
+    most_loss : float
+        What a chain of flips may lose on its way before it is given up, in the unit of the energy
+        that judges it.
     """
 
     module: str
@@ -37,15 +44,21 @@ class Energy(NamedTuple):
     least: float = 1e-7
     is_wide: bool = False
     is_narrow: bool = False
+    most_loss: float = math.inf
 
 
 # The first is the default.
 ENERGIES = {
     "virtual willmore": Energy(
-        "virtual", "the paper's cost; careful, fit for scans", is_potential=False
+        "virtual",
+        "the paper's cost; careful, fit for scans",
+        is_potential=False,
+        most_loss=MOST_LOSS,
     ),
     "willmore": Energy(
-        "willmore", "the Willmore energy itself; smooths the creases of bad triangulations away"
+        "willmore",
+        "the Willmore energy itself; smooths the creases of bad triangulations away",
+        most_loss=MOST_LOSS,
     ),
     "uniform virtual willmore": Energy(
         "uniform", "the same with a virtual vertex in each edge; somewhat smoother"

@@ -10,6 +10,8 @@ from .parallel import thread_pool
 
 # Half-edges of one vertex that are sorted by insertion, which takes quadratic time.
 MANY_EDGES = 64
+# Bits of the higher end in the number of an edge.
+EDGE_SHIFT = 32
 
 
 @jit
@@ -171,13 +173,13 @@ def edge_ends(faces):
 
 def changed_edges(before, after):
     """Return the number of vertex pairs that faces of `after` (m, 3) join, and none of `before`."""
-    return len(np.setdiff1d(_edge_numbers(after), _edge_numbers(before), assume_unique=True))
+    return len(np.setdiff1d(edge_numbers(after), edge_numbers(before), assume_unique=True))
 
 
-def _edge_numbers(faces):
-    """Return a number for each edge, the same in all meshes, sorted."""
+def edge_numbers(faces):
+    """Return the numbers of all edges, ``low << EDGE_SHIFT | high`` by their ends, sorted."""
     low, high = edge_ends(faces)
-    return np.unique((low.astype(np.int64) << 32) | high)
+    return np.unique((low.astype(np.int64) << EDGE_SHIFT) | high)
 
 
 def local_order(faces, vertex_count):

@@ -36,7 +36,6 @@ from ..guards.bvh import Bvh, refit, refitted
 from ..mesh.halfedge import NONE, Mesh, flip, is_free
 from ..mesh.jit import inner
 from ..mesh.notify import report
-from .multistart import Snapshot, assign, better, copy_of, descend, finish, snapshot_of
 from .rules import (
     ALLOWED,
     CONVERGED,
@@ -48,6 +47,7 @@ from .rules import (
     refusal,
     refusal_by_all,
 )
+from .snapshots import Snapshot, assign, better, copy_of, descend, finish, snapshot_of
 
 # The judge: `meshlab_willmore.search.compiled` puts the module of each potential in this place.
 energy = willmore

@@ -64,6 +64,8 @@ class Chain(NamedTuple):
         Their number.
     best : (D,) int32
         Half-edges of the best prefix.
+    floor : (1,) float64
+        No flip is tried after which the drop is lower than this.
     """
 
     flipped: np.ndarray
@@ -82,6 +84,7 @@ class Chain(NamedTuple):
     ring: np.ndarray
     ring_size: np.ndarray
     best: np.ndarray
+    floor: np.ndarray
 
 
 class ChainState(NamedTuple):
@@ -130,8 +133,8 @@ def _widths(limits):
     return np.array(widths, np.int64)
 
 
-def empty_chain(limits):
-    """Return room for chains within these limits, a ChainLimits."""
+def empty_chain(limits, most_loss=np.inf):
+    """Return room for chains within these limits, a ChainLimits, that lose no more than that."""
     depth = limits.depth
     return Chain(
         flipped=np.empty(depth, np.int32),
@@ -150,6 +153,7 @@ def empty_chain(limits):
         ring=np.empty(RING, np.int32),
         ring_size=np.zeros(1, np.int64),
         best=np.empty(depth, np.int32),
+        floor=np.full(1, -most_loss),
     )
 
 
@@ -219,18 +223,24 @@ def _find_candidates(state, count, s, ranking):
                 _offer(state, s, h, score)
 
 
-@inner
-def _next_candidate(state, s):
-    """Return the place of the best candidate of step `s` not tried yet that is allowed, or NONE."""
+@generic
+def _next_candidate(state, s, judge):
+    """Return the place of the best candidate of step `s` not tried yet that is allowed, or NONE.
+
+    Also what it gains as judged, which is finite: no chain has a flip with an undefined angle.
+    """
     chain = state.chain
     while chain.seen[s] < chain.offered[s] and chain.tried[s] < chain.width[s]:
         place = chain.seen[s]
         chain.seen[s] += 1
-        h = chain.candidate[s, place]
+        h = np.int64(chain.candidate[s, place])
+        drop = chain.score[s, place] if judge is None else judge.cost_reduction(state.mesh, h)
+        if not (np.isfinite(drop) and chain.drop[s] + drop >= chain.floor[0]):
+            continue
         if not _is_joined(state, h, s) and _may_flip(state, h):
             chain.tried[s] += 1
-            return place
-    return NONE
+            return place, drop
+    return NONE, 0.0
 
 
 @inner
@@ -339,7 +349,7 @@ def find_chain(state, start, ranking, judge):
     work : int
         Number of scored edges.
     """
-    mesh, chain = state.mesh, state.chain
+    chain = state.chain
     best = Prefix(0, 0.0, 0.0)
     depth = len(chain.flipped)
     chain.ring[0] = start
@@ -349,13 +359,12 @@ def find_chain(state, start, ranking, judge):
             work += count
             _find_candidates(state, count, s, ranking)
             is_new = False
-        place = _next_candidate(state, s) if work < MOST_WORK else NONE
+        place, drop = NONE, 0.0
+        if work < MOST_WORK:
+            place, drop = _next_candidate(state, s, judge)
         if place != NONE:
-            h, score = np.int64(chain.candidate[s, place]), chain.score[s, place]
-            _add(state, h, s, score, score if judge is None else judge.cost_reduction(mesh, h))
-            # A flip with an undefined angle is never part of a chain.
-            if not np.isfinite(chain.drop[s + 1]):
-                continue
+            h = np.int64(chain.candidate[s, place])
+            _add(state, h, s, chain.score[s, place], drop)
             best = _better(state, s + 1, best)
             if s + 1 == depth:
                 continue

@@ -34,6 +34,8 @@ class Kernels(NamedTuple):
     total : callable
         The energy of a mesh that judges: the Willmore energy for the virtual one, which is no
         function of the mesh, else the energy itself.
+    most_loss : float
+        What chains of flips may lose of it on their way.
     """
 
     energy: ModuleType
@@ -43,6 +45,7 @@ class Kernels(NamedTuple):
     score: Callable
     losses: Callable
     total: Callable
+    most_loss: float
 
 
 def specialised(template, energy, judge=None):
@@ -76,7 +79,7 @@ def _compiled(template, energy, judge=None):
 
 
 @functools.cache
-def _kernels(module, is_potential):
+def _kernels(module, is_potential, most_loss):
     energy = importlib.import_module(f"..energy.{module}", __package__)
     other = None if is_potential else willmore
     judge = other or energy
@@ -91,11 +94,15 @@ def _kernels(module, is_potential):
         score=_compiled(score, energy, other),
         losses=_compiled(annealing.find_losses, judge),
         total=judge.total,
+        most_loss=most_loss,
     )
 
 
-KERNELS = {name: _kernels(row.module, row.is_potential) for name, row in ENERGIES.items()}
+KERNELS = {
+    name: _kernels(row.module, row.is_potential, row.most_loss) for name, row in ENERGIES.items()
+}
 # Those for "virtual willmore" by where the virtual points are; `AT`: at a number.
 PLACED_KERNELS = {
-    place: _kernels(module, False) for place, module in {**VIRTUAL_POINTS, AT: AT}.items()
+    place: _kernels(module, False, ENERGIES["virtual willmore"].most_loss)
+    for place, module in {**VIRTUAL_POINTS, AT: AT}.items()
 }

@@ -1,16 +1,16 @@
 """The variable-depth search: chains of flips that may go through a loss.
 
-    descend greedily
+    descend greedily; descend along another energy first as well; go on with the better end
     put every edge into a queue
     while the queue is not empty:
         take an edge and flip it, even at a loss
         up to the depth: flip the best edge next to the last flip that the chain has not made itself
-        where chains may branch, try the second best and so on as well, until one chain helps
         keep the best prefix if it lowers the energy, and put the edges around it into the queue
         undo the rest
     repeat with the edges that could have seen a change, until no chain helps
-    descend greedily again, as flips that lower another energy than chains may be left; go on there
-    where another energy still would flip edges, go one flip deeper; repeat if that helped
+    try longer chains that branch, to the second best edge and so on until one helps, where chains
+        have helped and where another energy still would flip edges; repeat if that helped
+    descend along the other energy again; repeat from there if it ends lower
 
 It is the scheme of S. Lin and B. W. Kernighan ("An effective heuristic algorithm for the
 traveling-salesman problem", 1973, DOI 10.1287/opre.21.2.498), with their breadth at the first
@@ -20,9 +20,16 @@ minima ("Mesh optimisation based on Willmore energy", section 5).
 Every flip of a chain has to be allowed when it is made. Two functions guide the search: one *ranks*
 the edges from which a chain may go on, the other one *judges* the chain and must be the difference
 of a potential, so that the cost reductions of a chain add up to the drop of an energy. Each chain
-that is kept lowers that energy by more than a tolerance: the search ends. For most energies both
-are the same. The virtual Willmore energy has no potential; chains ranked by it are judged by the
-Willmore energy.
+that is kept lowers that energy by more than a tolerance, and so does each descent: the search ends.
+For most energies both are the same. The virtual Willmore energy has no potential; chains ranked by
+it are judged by the Willmore energy.
+
+**Two descents.** Greedy descent along the harmonic index (`meshlab_willmore.energy.delaunay`) and
+then along the energy itself often ends far lower than that along the energy alone: it sees where
+the surface is rough from much further off. On the face scan both differ in one face of 500. Chains
+follow there from both ends before these are compared, and then everywhere from the better one. It
+is the same at the end: what the search returns is not left for a better end of that descent either,
+so that a second run makes no flip.
 
 **What a chain sees.** A chain of D flips that starts at the edge i-j reads the mesh at vertices at
 most D edges away from i or j. (The quad around an edge, and the corners of the faces outside, are
@@ -32,21 +39,29 @@ were tried, and then those within D edges of a change, over and over until nothi
 is left. That takes O(n) time for each round of n edges. Only the guard against self-intersections
 looks farther. Starts from which it has refused a flip are noted, and tried again in each round.
 
-**Doubtful places.** What remains of a bad triangulation are a few tangles that no chain of D flips
-undoes. They are seen by another energy: the harmonic index (`meshlab_willmore.energy.delaunay`),
-which is least where triangles are good, would flip edges there. So chains from these edges, and
-around them, may be one flip longer. There are few of them on smooth surfaces.
+**When a chain is given up.** No flip is tried after which the loss is larger than `most_loss` of
+`meshlab_willmore.energy.table`. The loss of most flips of a good triangulation alone is; of the
+chains that help, one in a hundred gets there.
+
+**Doubtful places.** Chains that branch take four times as long as others and hardly find more. What
+remains of a bad triangulation are a few tangles. They are seen by another energy: the harmonic
+index, which is least where triangles are good, or the Willmore energy, would flip edges there. So
+chains branch, and may be one flip longer, from these edges and around them, and where chains have
+helped. There are few such places on smooth surfaces.
 """
+
+import functools
 
 import numpy as np
 
 from ..energy import delaunay, willmore
 from ..guards import add_deviation
-from ..guards.bvh import inactive_bvh, refit
+from ..guards.bvh import refit
+from ..mesh.build import EDGE_SHIFT, edge_numbers, faces_of
 from ..mesh.halfedge import NONE, apex, flip, following, is_free
 from ..mesh.jit import inner, jit
 from ..mesh.notify import report
-from . import greedy, regions
+from . import greedy, parallel_greedy, regions
 from .chains import ChainState, empty_chain, find_chain, find_ring
 from .containers import empty_fifo, pop, push
 from .rules import (
@@ -60,11 +75,12 @@ from .rules import (
     Progress,
     refusal,
 )
+from .snapshots import better, descend, extend, finish, snapshot_of
 
 # What ranks and what judges chains: `meshlab_willmore.search.compiled` puts the modules of each
 # energy in these places. A judge of None: the same as what ranks.
 energy, judge = willmore, None
-# What the harmonic index must gain by a flip to cast doubt on a place.
+# What another energy must gain by a flip to cast doubt on a place.
 DOUBT = 1e-7
 
 # --- the queue of starts -------------------------------------------------------------------------
@@ -79,15 +95,8 @@ def _queue_edge(mesh, queue, h):
 
 
 @jit
-def queue_all(mesh, queue):
-    """Queue every edge, in the order of the half-edges."""
-    for h in range(len(mesh.origin)):
-        _queue_edge(mesh, queue, h)
-
-
-@jit
-def _queue_near(mesh, queue, marked, hops):
-    """Queue every edge at most `hops` edges away from a marked vertex, and clear the marks."""
+def _spread(mesh, marked, hops):
+    """Return the mask of the vertices at most `hops` edges away from a marked one."""
     distance = np.where(marked, 0, hops + 1)
     for hop in range(hops):
         for h in range(len(mesh.origin)):
@@ -96,10 +105,15 @@ def _queue_near(mesh, queue, marked, hops):
                 distance[b] = min(distance[b], hop + 1)
             elif distance[b] == hop:
                 distance[a] = min(distance[a], hop + 1)
+    return distance <= hops
+
+
+@jit
+def queue_marked(mesh, queue, marked):
+    """Queue every edge with a marked end, in the order of the half-edges."""
     for h in range(len(mesh.origin)):
-        if min(distance[mesh.origin[h]], distance[mesh.origin[following(h)]]) <= hops:
+        if marked[mesh.origin[h]] or marked[mesh.origin[following(h)]]:
             _queue_edge(mesh, queue, h)
-    marked[:] = False
 
 
 @jit
@@ -119,13 +133,16 @@ def _mark_diamond(mesh, h, marked):
 
 
 @jit
-def _mark_doubtful(mesh, rules, doubtful):
-    """Mark, in place, the vertices of the diamonds that the harmonic index would have flipped."""
+def _doubtful_vertices(mesh, rules):
+    """Return the mask of the vertices of the diamonds that another energy would have flipped."""
+    doubtful = np.zeros(len(mesh.vertices), np.bool_)
     for h in range(len(mesh.origin)):
         if not (h < mesh.twin[h] and is_free(mesh, h)):
             continue
-        if delaunay.cost_reduction(mesh, h) > DOUBT and refusal(mesh, h, rules) == ALLOWED:
+        gain = max(delaunay.cost_reduction(mesh, h), willmore.cost_reduction(mesh, h))
+        if gain > DOUBT and refusal(mesh, h, rules) == ALLOWED:
             _mark_diamond(mesh, h, doubtful)
+    return doubtful
 
 
 # --- the search ----------------------------------------------------------------------------------
@@ -198,25 +215,65 @@ def _work_off(kernel, state, progress, halted):
 def run(kernels, mesh, rules, bvh=None, settings=DEFAULTS):
     """Flip edges of `mesh` in place until no allowed chain helps, or the limit is reached.
 
-    Parameters and result are those of `meshlab_willmore.search.greedy.run`. A chain that would
-    exceed `Rules.maxflips` is not made. Under the monotone rule no chain as a whole raises the
-    Willmore energy; its single flips may. Large meshes are searched in regions first, on all cores;
+    Parameters and result are those of `meshlab_willmore.search.greedy.run`, but the gain is the
+    drop of the energy that judges. A chain that would exceed `Rules.maxflips`, which limits the
+    flips on the way to each state, is not made. The monotone rule holds from each start: no chain
+    as a whole raises the Willmore energy, though its single flips may. The result is no worse than
+    the greedy one from the mesh itself. Large meshes are searched in regions first, on all cores;
     not with the guard against self-intersections, which looks everywhere, or a limit.
     """
-    bvh = inactive_bvh() if bvh is None else bvh
-    progress = greedy.run(kernels, mesh, rules, bvh)
-    if progress.state == STOPPED:
-        return progress
+    begin = snapshot_of(mesh, bvh)
+    found = _best_descent(kernels, begin, descend(kernels, begin, rules), rules, settings)
     changed = None
-    if regions.is_large(mesh) and not bvh.active and rules.maxflips == NO_LIMIT:
+    while found.state == CONVERGED:
+        search = functools.partial(_make_chains, kernels, settings=settings, changed=changed)
+        deep = extend(found, search, rules)
+        found = _best_descent(kernels, deep, deep, rules, settings)
+        if found is deep:
+            break
+        # With the guard, what these flips have freed may be anywhere.
+        changed = None if begin.bvh.active else _where_they_differ(deep.mesh, found.mesh)
+    progress = finish(kernels, mesh, found)
+    if begin.bvh.active:
+        bvh.box[:] = found.bvh.box
+    return progress
+
+
+def _best_descent(kernels, begin, found, rules, settings):
+    """Return `found`, unless the way along another energy is better.
+
+    From both, chains without branches go on where they differ: nowhere else would they lead to
+    different states.
+    """
+    for other_kernels, other_rules in settings.warm_starts:
+        limited = other_rules._replace(maxflips=rules.maxflips)
+        other = extend(begin, _quick_descent(other_kernels, settings), limited)
+        other = extend(other, _quick_descent(kernels, settings), rules)
+        ends = [found, other]
+        if found.state == other.state == CONVERGED:
+            near = _where_they_differ(found.mesh, other.mesh)
+            limits = settings.limits._replace(breadth=1)
+            search = functools.partial(_search, kernels, limits=limits, changed=near)
+            ends = [extend(end, search, rules) for end in ends]
+        ends[0] = found if ends[0].flips == found.flips else ends[0]
+        found = better(kernels, rules, *ends)
+    return found
+
+
+def _quick_descent(kernels, settings):
+    return functools.partial(parallel_greedy.run, kernels, settings=settings)
+
+
+def _make_chains(kernels, mesh, rules, bvh, settings, changed):
+    """Make chains until none helps, near changed vertices or, if that is None, everywhere."""
+    limits, progress = settings.limits, Progress(len(mesh.origin), 0, 0.0, WORKING)
+    if changed is None and regions.is_large(mesh) and not bvh.active and rules.maxflips == NO_LIMIT:
 
         def search(part, halted):
-            begin = Progress(len(part.origin), 0, 0.0, WORKING)
-            return _search(kernels, part, rules, bvh, settings.limits, begin, None, halted)
+            return _search(kernels, part, rules, bvh, limits, halted=halted)
 
-        found, changed = regions.run(search, mesh, settings.threads)
-        progress = _sum(progress, found)
-    progress = _search(kernels, mesh, rules, bvh, settings.limits, progress, changed)
+        progress, changed = regions.run(search, mesh, settings.threads)
+    progress = _sum(progress, _search(kernels, mesh, rules, bvh, limits, changed))
     # For a potential, a flip that is left would have been a chain.
     while progress.state == CONVERGED and rules.monotone:
         before, flips = mesh.origin.copy(), progress.flips
@@ -227,7 +284,8 @@ def run(kernels, mesh, rules, bvh=None, settings=DEFAULTS):
         flips = progress.flips
         # With the guard, what these flips have freed may be anywhere.
         changed = None if bvh.active else _moved_vertices(before, mesh)
-        progress = _search(kernels, mesh, rules, bvh, settings.limits, progress, changed)
+        left = rules._replace(maxflips=rules.maxflips - flips)
+        progress = _sum(progress, _search(kernels, mesh, left, bvh, limits, changed))
         if progress.flips == flips:
             break
     return progress
@@ -246,37 +304,56 @@ def _moved_vertices(before, mesh):
     return marked
 
 
-def _search(kernels, mesh, rules, bvh, limits, progress, changed, halted=()):
+def _where_they_differ(one, other):
+    """Return the mask of the ends of the edges that only one of two triangulations has."""
+    marked = np.zeros(len(one.vertices), np.bool_)
+    numbers = (edge_numbers(faces_of(mesh)) for mesh in (one, other))
+    differing = np.setxor1d(*numbers, assume_unique=True)
+    marked[differing >> EDGE_SHIFT] = marked[differing & (2**EDGE_SHIFT - 1)] = True
+    return marked
+
+
+def _search(kernels, mesh, rules, bvh, limits, changed=None, halted=()):
     """Make chains until none helps, at first from all edges, or from those near changed vertices.
 
-    Chains that do not branch come first: they are cheap, and do most of the work.
+    Chains that do not branch come first: they are cheap, and do most of the work. Then chains that
+    branch and are one flip longer start where others have helped, and at doubtful places.
     """
-    is_new = changed is None
-    stages = dict.fromkeys((limits._replace(breadth=1), limits)) if is_new else (limits,)
-    changed = np.zeros(len(mesh.vertices), np.bool_) if is_new else changed
-    blocked, hit_cut = np.zeros(len(mesh.origin), np.bool_), np.zeros(1, np.bool_)
-    queue = empty_fifo(len(mesh.origin))
-    for stage in stages:
-        chain = empty_chain(stage)
-        state = ChainState(mesh, queue, chain, changed, rules, bvh, blocked, hit_cut)
-        if is_new:
-            changed[:] = blocked[:] = False
-            queue_all(mesh, queue)
-            progress = _work_off(kernels.depth, state, progress, halted)
-            if progress.state == STOPPED:
-                return progress
-    deeper = state._replace(chain=empty_chain(limits._replace(depth=limits.depth + 1)))
-    doubtful = np.zeros(len(mesh.vertices), np.bool_)
+    hops, vertices = limits.depth + rules.is_wide, len(mesh.vertices)
+    queue, made = empty_fifo(len(mesh.origin)), np.zeros(vertices, np.bool_)
+    straight, branching = (
+        ChainState(
+            mesh,
+            queue,
+            empty_chain(chain_limits, kernels.most_loss),
+            made,
+            rules,
+            bvh,
+            blocked=np.zeros(len(mesh.origin), np.bool_),
+            hit_cut=np.zeros(1, np.bool_),
+        )
+        for chain_limits in (limits._replace(breadth=1), limits._replace(depth=limits.depth + 1))
+    )
+    near = np.ones(vertices, np.bool_) if changed is None else changed
+    reach, moved = _spread(mesh, near, hops + 1), np.zeros(vertices, np.bool_)
+    queue_marked(mesh, queue, _spread(mesh, near, hops))
+    progress = Progress(len(mesh.origin), 0, 0.0, WORKING)
     while True:
-        while progress.state == CONVERGED and changed.any():
-            _queue_near(mesh, queue, changed, limits.depth + rules.is_wide)
-            _queue_blocked(mesh, queue, blocked)
-            progress = _work_off(kernels.depth, state, progress, halted)
+        progress = _work_off(kernels.depth, straight, progress, halted)
+        while progress.state == CONVERGED and made.any():
+            moved |= made
+            queue_marked(mesh, queue, _spread(mesh, made, hops))
+            _queue_blocked(mesh, queue, straight.blocked)
+            made[:] = False
+            progress = _work_off(kernels.depth, straight, progress, halted)
         # Single flips are no chains: a depth of 1 is plain descent.
         if progress.state != CONVERGED or limits.depth == 1:
             return progress
-        _mark_doubtful(mesh, rules, doubtful)
-        _queue_near(mesh, queue, doubtful, 0)
-        progress = _work_off(kernels.depth, deeper, progress, halted)
-        if progress.state != CONVERGED or not changed.any():
+        # Elsewhere they would do what they did before.
+        reach |= _spread(mesh, moved, hops + 1)
+        queue_marked(mesh, queue, moved | (reach & _doubtful_vertices(mesh, rules)))
+        _queue_blocked(mesh, queue, branching.blocked)
+        reach[:] = moved[:] = False
+        progress = _work_off(kernels.depth, branching, progress, halted)
+        if progress.state != CONVERGED or not made.any():
             return progress

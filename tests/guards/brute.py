@@ -8,7 +8,7 @@ from meshlab_willmore.guards.intersections import (
 )
 from meshlab_willmore.mesh.build import faces_of
 from meshlab_willmore.mesh.halfedge import flip
-from meshlab_willmore.search.multistart import copy_of
+from meshlab_willmore.search.snapshots import copy_of
 
 
 def are_refused(vertices, corners, f, g, area_scale):

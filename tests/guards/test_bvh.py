@@ -28,7 +28,7 @@ from meshlab_willmore.mesh.build import build, faces_of
 from meshlab_willmore.mesh.halfedge import NONE, flip
 from meshlab_willmore.mesh.jit import jit
 from meshlab_willmore.mesh.validate import to_unit_scale
-from meshlab_willmore.search.multistart import copy_of
+from meshlab_willmore.search.snapshots import copy_of
 from tests import meshes, solids
 from tests.connectivity import can_flip
 from tests.guards import brute

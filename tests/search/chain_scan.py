@@ -1,14 +1,15 @@
 """The variable-depth search as plain recursion, which copies the mesh for each flip it tries."""
 
+import copy
 import math
 
 import numpy as np
 import pytest
 
 from meshlab_willmore import guards
-from meshlab_willmore.energy import delaunay, willmore
+from meshlab_willmore.energy import delaunay, table, willmore
 from meshlab_willmore.mesh.halfedge import NONE, apex, flip, following, previous
-from meshlab_willmore.search import multistart
+from meshlab_willmore.search import snapshots
 from tests.connectivity import can_flip, validate_connectivity
 from tests.search.ways import ends
 
@@ -28,12 +29,26 @@ def around(mesh, h):
     return ring
 
 
+def corners(mesh, h):
+    """The vertices of the diamond of `h`."""
+    t = int(mesh.twin[h])
+    return ends(mesh, h) | {int(apex(mesh, h)), int(apex(mesh, t))}
+
+
 class Scan:
     """Chains by recursion, on copies; every edge is tried again until none helps."""
 
     def __init__(self, rules, limits, rank, judge, is_blocked=lambda mesh, h: False):
         self.rules, self.limits, self.rank, self.judge = rules, limits, rank, judge
         self.is_blocked = is_blocked
+        # Corners of what was flipped for good.
+        self.moved = set()
+
+    def with_limits(self, **limits):
+        """Another scan, which notes its flips in the same place."""
+        other = copy.copy(self)
+        other.limits = self.limits._replace(**limits)
+        return other
 
     def allowed(self, mesh, h):
         if mesh.twin[h] == NONE or not can_flip(mesh, h):
@@ -50,6 +65,11 @@ class Scan:
             if ends(mesh, h) not in made and self.allowed(mesh, h)
         )
         last = len(chain) + 1 == self.limits.depth
+        if not (last and chain):
+            lost = -math.fsum(entry[1] for entry in chain)
+            ranked = [
+                entry for entry in ranked if lost - self.judge(mesh, entry[2]) <= table.MOST_LOSS
+            ]
         # The last step is free, so that all edges may be tried: in the order of the ring.
         if last and chain:
             ranked.sort(key=lambda entry: entry[1])
@@ -64,7 +84,7 @@ class Scan:
                 self.best = drop, [entry[0] for entry in longer]
             if last:
                 continue
-            flipped = multistart.copy_of(mesh)
+            flipped = snapshots.copy_of(mesh)
             flip(flipped, h)
             following_width = -(-width // 2) if chain else self.limits.breadth
             joined = {*made, ends(flipped, h)}
@@ -93,6 +113,7 @@ class Scan:
                 made.append(len(flips))
                 energy = willmore.total(mesh)
                 for h in flips:
+                    self.moved |= corners(mesh, h)
                     flip(mesh, h)
                     for x in (h, *around(mesh, h)):
                         low = min(x, int(mesh.twin[x]))
@@ -104,27 +125,27 @@ class Scan:
                 break
         return made
 
-    def doubts(self, mesh):
-        """Go one flip deeper where the harmonic index would flip edges, until it helps no more."""
-        deeper = Scan(
-            self.rules,
-            self.limits._replace(depth=self.limits.depth + 1),
-            self.rank,
-            self.judge,
-            self.is_blocked,
-        )
-        made = []
+    def search(self, mesh):
+        """Make all chains as the search does; return the number of flips of each.
+
+        Chains that do not branch, until none helps; then those that branch and are one flip longer
+        where chains have helped, and where another energy would flip edges; again if that helps.
+        """
+        straight = self.with_limits(breadth=1)
+        deeper = self.with_limits(depth=self.limits.depth + 1)
+        made = straight.run(mesh, MANY)
         while self.limits.depth > 1:
-            doubtful = set()
+            doubtful = set(self.moved)
+            self.moved.clear()
             for h in range(len(mesh.origin)):
-                t = int(mesh.twin[h])
-                if h > t or not can_flip(mesh, h) or guards.folds(mesh, h, self.rules.fold):
+                if h > mesh.twin[h] or not can_flip(mesh, h):
                     continue
-                if delaunay.cost_reduction(mesh, h) > 1e-7:
-                    doubtful |= ends(mesh, h) | {int(apex(mesh, h)), int(apex(mesh, t))}
+                gain = max(delaunay.cost_reduction(mesh, h), willmore.cost_reduction(mesh, h))
+                if gain > 1e-7 and not guards.folds(mesh, h, self.rules.fold):
+                    doubtful |= corners(mesh, h)
             starts = [h for h in range(len(mesh.origin)) if ends(mesh, h) & doubtful]
             found = deeper.run(mesh, 1, starts.__contains__)
             if not found:
-                return made
-            made += found + self.run(mesh, MANY)
+                break
+            made += found + straight.run(mesh, MANY)
         return made

@@ -8,7 +8,7 @@ from meshlab_willmore.energy import virtual, willmore
 from meshlab_willmore.guards.bvh import inactive_bvh
 from meshlab_willmore.mesh.build import build, faces_of
 from meshlab_willmore.mesh.halfedge import NONE, flip
-from meshlab_willmore.search import annealing, greedy, multistart, scoring
+from meshlab_willmore.search import annealing, greedy, scoring, snapshots
 from meshlab_willmore.search.compiled import KERNELS
 from meshlab_willmore.search.containers import NEVER
 from meshlab_willmore.search.rules import CONVERGED, STOPPED, Schedule, Settings
@@ -74,8 +74,8 @@ def test_the_walk_and_its_best_state_are_those_of_the_slow_one(name):
     losses = allowed_losses(mesh, rules)
     loss = annealing._median_loss(WILLMORE, mesh, rules)
     assert loss == pytest.approx(np.median(losses) if losses else 0.0, rel=1e-12)
-    seen = list(walk_slowly(multistart.copy_of(mesh), rules, SHORT, loss))
-    start = multistart.Snapshot(mesh, inactive_bvh(), 5, CONVERGED)
+    seen = list(walk_slowly(snapshots.copy_of(mesh), rules, SHORT, loss))
+    start = snapshots.Snapshot(mesh, inactive_bvh(), 5, CONVERGED)
     last, best = annealing._anneal(WILLMORE, start, rules, SHORT, loss)
     assert last.flips == seen[-1][0] + 5
     assert last.flips > 20 + 5
@@ -101,7 +101,7 @@ def test_the_best_state_lies_on_the_way_not_at_its_end():
     """Hot until the end, so that the state on the way is the one that counts."""
     mesh, rules = MESHES["closed"](), rules_for("willmore")
     hot = Schedule(sweeps=30, seed=3, hot=1.0, cold=1.0)
-    begin = multistart.Snapshot(mesh, inactive_bvh(), 0, CONVERGED)
+    begin = snapshots.Snapshot(mesh, inactive_bvh(), 0, CONVERGED)
     last, best = annealing._anneal(WILLMORE, begin, rules, hot, 1.0)
     assert 0 < best.flips < last.flips
     assert willmore.total(best.mesh) < willmore.total(last.mesh) - 1.0
@@ -125,7 +125,7 @@ def test_never_worse_than_greedy_and_its_gain_is_the_drop(energy, name):
     assert locked_edges(mesh) == locked_edges(start)
     np.testing.assert_array_equal(mesh.origin, start.origin[mesh.corner])
     # Converged: nothing is left for greedy flips.
-    again = multistart.copy_of(mesh)
+    again = snapshots.copy_of(mesh)
     assert greedy.run(kernels, again, rules).flips == 0
 
 
@@ -135,7 +135,7 @@ def test_never_worse_than_greedy_and_its_gain_is_the_drop(energy, name):
 def test_the_virtual_energy_leads_and_the_true_one_judges(monotone):
     rules = rules_for("virtual willmore")._replace(monotone=monotone)
     mesh = build(*meshes.torus(200, None, 1))
-    greedily, start = multistart.copy_of(mesh), willmore.total(mesh)
+    greedily, start = snapshots.copy_of(mesh), willmore.total(mesh)
     greedy.run(KERNELS["virtual willmore"], greedily, rules)
     schedule = Schedule(sweeps=100)
     progress = annealing.run(
@@ -158,7 +158,7 @@ def test_the_same_seed_gives_the_same_mesh_and_another_seed_another():
     for seed in (0, 0, 1):
         mesh = MESHES["closed"]()
         schedule = SHORT._replace(seed=seed, sweeps=8)
-        begin = multistart.Snapshot(mesh, inactive_bvh(), 0, CONVERGED)
+        begin = snapshots.Snapshot(mesh, inactive_bvh(), 0, CONVERGED)
         results.append(annealing._anneal(WILLMORE, begin, rules, schedule, 2.0)[0])
     assert results[0].flips == results[1].flips != results[2].flips
     assert_equal(results[0].mesh, results[1].mesh)
@@ -217,7 +217,7 @@ def test_maxflips_counts_every_flip_on_the_way():
 
 def test_a_walk_stops_at_the_limit():
     rules = rules_for("willmore")._replace(maxflips=12)
-    begin = multistart.Snapshot(MESHES["closed"](), inactive_bvh(), 5, CONVERGED)
+    begin = snapshots.Snapshot(MESHES["closed"](), inactive_bvh(), 5, CONVERGED)
     last, best = annealing._anneal(WILLMORE, begin, rules, SHORT, 2.0)
     assert last.flips == 12
     assert last.state == best.state == STOPPED

@@ -12,8 +12,8 @@ from meshlab_willmore.mesh.build import build, faces_of
 from meshlab_willmore.mesh.halfedge import NONE, flip, is_free
 from meshlab_willmore.search import regions, variable_depth
 from meshlab_willmore.search.compiled import KERNELS
-from meshlab_willmore.search.multistart import copy_of
 from meshlab_willmore.search.rules import CONVERGED, ChainLimits, Progress, Settings
+from meshlab_willmore.search.snapshots import copy_of
 from tests import meshes
 from tests.connectivity import can_flip, validate_connectivity
 from tests.search.ways import locked_edges, rules_for

@@ -11,7 +11,7 @@ from meshlab_willmore.guards.bvh import build_bvh, inactive_bvh, refitted
 from meshlab_willmore.mesh.build import build, faces_of
 from meshlab_willmore.mesh.halfedge import NONE, flip
 from meshlab_willmore.mesh.jit import jit
-from meshlab_willmore.search import chains, containers, greedy, multistart, variable_depth
+from meshlab_willmore.search import chains, containers, greedy, snapshots, variable_depth
 from meshlab_willmore.search.compiled import KERNELS
 from meshlab_willmore.search.rules import (
     CONVERGED,
@@ -27,7 +27,7 @@ from tests.combinations import products
 from tests.connectivity import can_flip, validate_connectivity
 from tests.guards import brute
 from tests.search import ways
-from tests.search.chain_scan import MANY, Scan
+from tests.search.chain_scan import Scan
 from tests.search.ways import FREE, GUARDED, ends, shuffled
 
 # What ranks the edges; the Willmore energy judges.
@@ -65,10 +65,7 @@ def test_the_search_finds_what_a_scan_finds(energy, limits, fold, name):
     rules = Rules(fold)
     scanned, searched = MESHES[name](), MESHES[name]()
     flips = greedy.run(KERNELS[energy], scanned, rules).flips
-    if limits.breadth > 1:
-        flips += sum(Scan(rules, limits._replace(breadth=1), rank, judge).run(scanned, rounds=1))
-    scan = Scan(rules, limits, rank, judge)
-    flips += sum(scan.run(scanned, rounds=MANY)) + sum(scan.doubts(scanned))
+    flips += sum(Scan(rules, limits, rank, judge).search(scanned))
     progress = search(energy, searched, rules, limits)
     validate_connectivity(searched)
     np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))
@@ -104,11 +101,7 @@ def test_chains_blocked_by_cuts_are_tried_again_once_a_scan_would(limits, name):
         return bool(brute.blockers(mesh, h))
 
     flips = greedy.run(kernels, scanned, rules, build_bvh(scanned)).flips
-    for stage in dict.fromkeys((limits._replace(breadth=1), limits)):
-        rounds = 1 if stage != limits else MANY
-        scan = Scan(rules, stage, rank, judge, is_blocked)
-        flips += sum(scan.run(scanned, rounds))
-    flips += sum(scan.doubts(scanned))
+    flips += sum(Scan(rules, limits, rank, judge, is_blocked).search(scanned))
     bvh = build_bvh(searched)
     progress = variable_depth.run(kernels, searched, rules, bvh, Settings(limits))
     np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))
@@ -123,8 +116,8 @@ def test_chains_blocked_by_cuts_are_tried_again_once_a_scan_would(limits, name):
 def new_state(mesh, rules, limits):
     """A state with every edge in the queue."""
     queue = containers.empty_fifo(len(mesh.origin))
-    variable_depth.queue_all(mesh, queue)
     changed = np.zeros(len(mesh.vertices), bool)
+    variable_depth.queue_marked(mesh, queue, ~changed)
     return chains.ChainState(
         mesh,
         queue,
@@ -144,7 +137,7 @@ def new_state(mesh, rules, limits):
 def test_what_a_chain_tries_leaves_no_trace(limits, name):
     """Undone flips give back all arrays bit for bit, also the corners, which a flip merges."""
     mesh = MESHES[name]()
-    before = multistart.copy_of(mesh)
+    before = snapshots.copy_of(mesh)
     state = new_state(mesh, Rules(FREE), limits)
     worked = 0
     for h in np.flatnonzero(mesh.twin != NONE):
@@ -153,7 +146,7 @@ def test_what_a_chain_tries_leaves_no_trace(limits, name):
         for changed, kept in zip(mesh, before, strict=True):
             np.testing.assert_array_equal(changed, kept)
         # The prefix is worth what it says.
-        after = multistart.copy_of(mesh)
+        after = snapshots.copy_of(mesh)
         for s in range(best[0]):
             assert can_flip(after, state.chain.best[s])
             flip(after, state.chain.best[s])
@@ -169,7 +162,7 @@ def test_what_a_chain_tries_leaves_no_trace(limits, name):
 def test_the_chains_from_one_edge_are_bounded():
     """However deep and broad they may be, and on a mesh so small that they go round and round."""
     mesh = build(*meshes.bumpy_sphere(20, seed=2))
-    before = multistart.copy_of(mesh)
+    before = snapshots.copy_of(mesh)
     state = new_state(mesh, Rules(FREE), ChainLimits(30, 12))
     best, work = find_willmore(state, 0)
     assert best[0] == 0
@@ -186,7 +179,7 @@ def test_the_ring_is_where_cost_reductions_change(name):
     for h in np.flatnonzero(mesh.twin > np.arange(len(mesh.twin)))[::7]:
         if not can_flip(mesh, h):
             continue
-        flipped = multistart.copy_of(mesh)
+        flipped = snapshots.copy_of(mesh)
         flip(flipped, h)
         state = new_state(flipped, Rules(FREE), ChainLimits(1, 1))
         there = {ends(flipped, x) for x in state.chain.ring[: chains.find_ring(state, h)]}
@@ -226,7 +219,8 @@ def test_chains_of_one_flip_are_plain_descent(name):
     wanted = greedy.run(KERNELS["willmore"], greedily, rules)
     found = search("willmore", searched, rules, ChainLimits(1, 12))
     np.testing.assert_array_equal(faces_of(searched), faces_of(greedily))
-    assert found[1:] == wanted[1:]
+    assert (found.flips, found.state) == (wanted.flips, wanted.state)
+    assert found.gain == pytest.approx(wanted.gain, abs=1e-9)
 
 
 @pytest.mark.heavy
@@ -244,7 +238,7 @@ def test_deeper_is_never_worse_than_greedy_and_a_minimum(energy, name):
     for h in np.flatnonzero(mesh.twin != NONE):
         if h < mesh.twin[h]:
             assert find_chain(state, h)[0][0] == 0
-    again = multistart.copy_of(mesh)
+    again = snapshots.copy_of(mesh)
     progress = KERNELS[energy].depth(state, Progress(0, 0, 0.0, WORKING))
     assert progress == (0, 0, 0.0, CONVERGED)
     np.testing.assert_array_equal(mesh.origin, again.origin)

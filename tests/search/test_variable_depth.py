@@ -361,6 +361,22 @@ def test_the_kernel_comes_back_often_and_two_runs_are_equal():
         np.testing.assert_array_equal(one, other)
 
 
+@pytest.mark.heavy
+def test_a_descent_along_another_energy_is_gone_on_from_where_it_ends_lower():
+    rules, limits = ways.rules_for("willmore"), ChainLimits(2, 1)
+    detour = ((KERNELS["delaunay"], ways.rules_for("delaunay")),)
+    alone = ways.scramble(build(*meshes.torus(200, None, 1)), 4)
+    mesh, before = snapshots.copy_of(alone), willmore.total(alone)
+    search("willmore", alone, rules, limits)
+    settings = Settings(limits, warm_starts=detour)
+    progress = variable_depth.run(KERNELS["willmore"], mesh, rules, None, settings)
+    assert willmore.total(mesh) < willmore.total(alone) - 1.0
+    assert progress.gain == pytest.approx(before - willmore.total(mesh))
+    assert progress.state == CONVERGED
+    # What the other descent leads to from here is no better.
+    assert variable_depth.run(KERNELS["willmore"], mesh, rules, None, settings).flips == 0
+
+
 @pytest.mark.parametrize(
     ("limits", "wanted"),
     [

@@ -78,7 +78,7 @@ class Recorder:
         if not self._can_draw:
             return
         self.notify(f"picture: {name}")
-        figure = pictures.comparison(_shot(*before), _shot(*after), camera)
+        figure = pictures.comparison(camera, _shot(*before), _shot(*after))
         path = self.folder / f"{name}.png"
         with atomic_write(path) as draft:
             figure.savefig(draft)

@@ -1,4 +1,4 @@
-"""Before-and-after pictures: wireframe and flat shading, seen by one camera.
+"""Pictures of a mesh before and after flips: wireframe and flat shading, seen by one camera.
 
 Triangles are drawn from the back to the front by matplotlib, which needs no display, no graphics
 driver and no system library. On facets as small and even as a scan's, this hides what is hidden,
@@ -108,22 +108,23 @@ def can_draw() -> bool:
     return importlib.util.find_spec("matplotlib") is not None
 
 
-def comparison(before: Shot, after: Shot, camera: Camera) -> Figure:
-    """Draw two triangulations of the same vertices: wireframes above, shaded below.
+def comparison(camera: Camera, *shots: Shot) -> Figure:
+    """Draw triangulations of the same vertices side by side: wireframes above, shaded below.
 
     Returns
     -------
     matplotlib.figure.Figure
-        With four axes of the same limits: both of `before`, then both of `after`, the wireframe
-        first. Ready for `savefig`.
+        With two axes for each shot, all of the same limits: the wireframe, then the shaded one.
+        Ready for `savefig`.
     """
     from matplotlib.figure import Figure
 
-    window = window_of(before.vertices, camera)
+    window = window_of(shots[0].vertices, camera)
     panel = PANEL_WIDTH, PANEL_WIDTH * (window.top - window.bottom) / (window.right - window.left)
-    page = 2 * panel[0] + GAP, 2 * panel[1] + GAP + CAPTION_HEIGHT
+    page = len(shots) * (panel[0] + GAP) - GAP, 2 * panel[1] + GAP + CAPTION_HEIGHT
     figure = Figure(figsize=page, dpi=PIXELS_PER_INCH)
-    for shot, left in ((before, 0.0), (after, panel[0] + GAP)):
+    for column, shot in enumerate(shots):
+        left = column * (panel[0] + GAP)
         facets = facets_seen(shot, camera, window)
         for drawn, bottom in ((_wireframe(facets, panel), panel[1] + GAP), (_shaded(facets), 0.0)):
             place = np.array([left, bottom, *panel]) / (*page, *page)

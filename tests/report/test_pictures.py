@@ -66,7 +66,7 @@ def test_four_panels_share_one_camera(pictures):
     window = Window(-0.5, 1.5, -1.0, 0.5)
     camera = Camera(FROM_ABOVE.rotation, window)
     shots = pictures.Shot("before", vertices, faces), pictures.Shot("after", vertices, faces[::-1])
-    figure = pictures.comparison(*shots, camera)
+    figure = pictures.comparison(camera, *shots)
     assert [(*axes.get_xlim(), *axes.get_ylim()) for axes in figure.axes] == [window] * 4
     assert [text.get_text() for text in figure.texts] == ["before", "after"]
     _, panels = pixels(figure)
@@ -79,9 +79,17 @@ def test_four_panels_share_one_camera(pictures):
     assert np.abs(panels[1] - panels[3]).mean() < 1
 
 
+def test_three_shots_have_a_column_each(pictures):
+    shot = pictures.Shot("", *roof())
+    figure = pictures.comparison(FROM_ABOVE, shot, shot, shot)
+    places = [axes.get_position() for axes in figure.axes]
+    assert [place.x0 for place in places[::2]] == [place.x0 for place in places[1::2]]
+    assert places[0].x1 < places[2].x0 < places[2].x1 < places[4].x0 < places[4].x1 <= 1.0
+
+
 def test_panels_show_a_wireframe_and_shades(pictures):
     shot = pictures.Shot("", *roof())
-    _, (wire, shaded, *_) = pixels(pictures.comparison(shot, shot, FROM_ABOVE))
+    _, (wire, shaded, *_) = pixels(pictures.comparison(FROM_ABOVE, shot, shot))
     # Wireframe: mostly paper, some dark line; the diagonals cross in the middle.
     assert (wire.min(axis=2) > 250).mean() > 0.9
     height, width, _ = wire.shape
@@ -101,7 +109,7 @@ def test_what_is_in_front_hides_what_is_behind(pictures):
     for faces in ([(0, 1, 2), (3, 4, 5)], [(3, 4, 5), (0, 1, 2)]):
         both = pictures.Shot("", vertices, np.array(faces))
         alone = pictures.Shot("", vertices, np.array([(0, 1, 2)]))
-        _, (_, shaded, _, expected) = pixels(pictures.comparison(both, alone, FROM_ABOVE))
+        _, (_, shaded, _, expected) = pixels(pictures.comparison(FROM_ABOVE, both, alone))
         height, width, _ = shaded.shape
         middle = height // 2, width // 2
         assert shaded[middle].tolist() == expected[middle].tolist()
@@ -122,7 +130,7 @@ def test_faces_that_look_away_or_lie_outside_are_not_drawn(pictures):
     seen = pictures.facets_seen(pictures.Shot("", vertices, faces), FROM_ABOVE, right_part)
     assert 1 <= len(seen.corners) < 4
     figure = pictures.comparison(
-        pictures.Shot("", vertices, faces), pictures.Shot("", vertices, faces[:0]), FROM_ABOVE
+        FROM_ABOVE, pictures.Shot("", vertices, faces), pictures.Shot("", vertices, faces[:0])
     )
     _, (_, _, empty_wire, empty_shaded) = pixels(figure)
     assert empty_wire.min() == empty_shaded.min() == 255
@@ -132,6 +140,6 @@ def test_a_facet_without_area_does_not_disturb(pictures):
     vertices, faces = roof()
     flat = np.vstack([faces, [(0, 1, 1)]])
     shots = pictures.Shot("", vertices, faces), pictures.Shot("", vertices, flat)
-    _, panels = pixels(pictures.comparison(*shots, FROM_ABOVE))
+    _, panels = pixels(pictures.comparison(FROM_ABOVE, *shots))
     np.testing.assert_array_equal(panels[0], panels[2])
     np.testing.assert_array_equal(panels[1], panels[3])

@@ -9,6 +9,7 @@ import numpy as np
 
 from . import guards, options
 from .energy.table import AT, ENERGIES
+from .folds import faces_near_folds, locked_outside
 from .guards.bvh import build_bvh, inactive_bvh
 from .measure import quality_of, willmore_energy_of
 from .mesh.build import build, changed_edges, in_old_slots, local_order
@@ -224,8 +225,10 @@ def optimize_flips(
 
         - "paper": the paper's method, or whatever the other options say.
         - "faithful": the true shape of the surface, and then good triangles. Flips lower "mean
-          curvature", which finds creases and smooth parts back, and then "delaunay" without moving
-          the surface by more than `maxdeviation`, 0.03 % of the bounding box's diagonal by default.
+          curvature", which finds creases and smooth parts back, with chains of two flips where the
+          surface is folded; then "delaunay" without moving the surface by more than
+          `maxdeviation`, 0.03 % of the bounding box's diagonal by default. Until then `foldangle`
+          and `minshape` are 180 and 0, unless they are given.
         - "smooth": the lowest Willmore energy.
         - "shape": the best triangles within `maxdeviation` of the input, with the same default.
 
@@ -236,7 +239,9 @@ def optimize_flips(
         Passes of your own, one after the other, in place of a preset. Each has options of this
         function: ``[dict(energy="mean curvature"), dict(energy="delaunay", maxdeviation=0.1)]``.
         What a pass leaves out has the default; `foldangle`, `minshape`, `maxdeviation`,
-        `checkintersections` and `maxflips` given beside `passes` are for all of them.
+        `checkintersections` and `maxflips` given beside `passes` are for all of them. With
+        ``atfolds=True`` a pass flips only faces at edges that are bent by more than 100 degrees,
+        and their neighbours.
     energy : str
         What to minimise.
 
@@ -392,7 +397,8 @@ def optimize_flips(
         if one.counts_anew:
             deviation += mesh.deviation.max(initial=0.0)
             mesh.deviation[:] = 0.0
-        done.append(_run(one, mesh, exponent, left))
+        run = _run_at_folds if one.atfolds else _run
+        done.append(run(one, mesh, exponent, left))
         left -= done[-1].flips
     deviation += mesh.deviation.max(initial=0.0)
     new_faces, corners = in_old_slots(mesh, order)
@@ -444,6 +450,15 @@ def _run(one, mesh, exponent, left):
     progress = search.run(kernels, mesh, rules, bvh, Settings(limits, schedule, warm_starts))
     gain = in_input_units(progress.gain, exponent * row.length_power)
     return PassResult(one.energy, one.search, progress.flips, gain, progress.state == CONVERGED)
+
+
+def _run_at_folds(one, mesh, exponent, left):
+    """Make the flips of one pass as `_run` does, but only near folds."""
+    near = faces_near_folds(mesh)
+    if not near.any():
+        return PassResult(one.energy, one.search, 0, 0.0, True)
+    with locked_outside(mesh, near) as part:
+        return _run(one, part, exponent, left)
 
 
 def _at_unit_scale(length, exponent):

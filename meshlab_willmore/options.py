@@ -361,4 +361,14 @@ OPTIONS = (
     ALLOWLOSS,
 )
 
-BY_NAME = {option.name: option for option in OPTIONS}
+# What only a pass of a preset, or of a list of passes, can have.
+ATFOLDS = Option(
+    "atfolds",
+    bool,
+    False,
+    "Only at folds",
+    "Flip only faces at edges that are bent by more than 100 degrees, and their neighbours.",
+    _flag,
+)
+
+BY_NAME = {option.name: option for option in (*OPTIONS, ATFOLDS)}

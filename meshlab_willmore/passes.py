@@ -34,6 +34,7 @@ class Pass(NamedTuple):
     maxdeviation: float | None
     checkintersections: bool
     maxflips: int | None
+    atfolds: bool = False
     counts_anew: bool = False
 
 
@@ -75,7 +76,7 @@ def planned(
     passes : sequence of mappings or None
         The options of each pass, in place of a preset.
     given : mapping
-        A value for each of `PASS_OPTIONS`: for passes that do not say otherwise.
+        A value for each of `PASS_OPTIONS` but "atfolds": for passes that do not say otherwise.
     diagonal : float
         Of the bounding box, in the unit of `maxdeviation`.
 
@@ -95,7 +96,12 @@ def planned(
     is_limited = any(one.stays_near for one in chosen.passes)
     plan = []
     for one in chosen.passes:
-        values = {**given, **one.options}
+        gives_way = {
+            name: value
+            for name, value in one.defaults.items()
+            if given[name] == options.BY_NAME[name].default
+        }
+        values = {**given, **gives_way, **one.options}
         if is_limited:
             values["maxdeviation"] = limit if one.stays_near else None
         plan.append(_checked(values)._replace(counts_anew=one.stays_near))
@@ -125,4 +131,5 @@ def _listed(passes: Sequence[Mapping[str, Any]], given: Mapping[str, Any]) -> tu
 
 
 def _checked(values: Mapping[str, Any]) -> Pass:
+    values = {options.ATFOLDS.name: options.ATFOLDS.default, **values}
     return Pass(**{name: options.BY_NAME[name].checked(values[name]) for name in PASS_OPTIONS})

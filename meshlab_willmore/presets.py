@@ -21,10 +21,13 @@ class PresetPass(NamedTuple):
         Its options by name; all others have the values that the caller gives.
     stays_near : bool
         Whether `maxdeviation` is a limit for this pass, counted from its own beginning.
+    defaults : mapping
+        Its options that give way to those of the caller.
     """
 
     options: Mapping[str, Any]
     stays_near: bool = False
+    defaults: Mapping[str, Any] = {}
 
 
 class Preset(NamedTuple):
@@ -46,13 +49,27 @@ class Preset(NamedTuple):
     maxdeviation: float = FULL_DIAGONAL
 
 
+# The guards would keep folds that are there already.
+_UNFOLD = {"foldangle": 180.0, "minshape": 0.0}
+
 # The first is the default.
 PRESETS = {
     "paper": Preset("the paper's method, or what the other parameters say"),
     "faithful": Preset(
         "the true surface, creases too, then good triangles",
         (
-            PresetPass({"energy": "mean curvature"}),
+            PresetPass({"energy": "mean curvature"}, defaults=_UNFOLD),
+            # Single flips leave tangles behind, where chains of two find the way out.
+            PresetPass(
+                {
+                    "energy": "mean curvature",
+                    "search": "variable depth",
+                    "depth": 2,
+                    "breadth": 1,
+                    "atfolds": True,
+                },
+                defaults=_UNFOLD,
+            ),
             PresetPass({"energy": "delaunay"}, stays_near=True),
         ),
         maxdeviation=0.03,

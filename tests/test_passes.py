@@ -50,7 +50,7 @@ def test_passes_are_what_single_runs_are_one_after_the_other(passes):
 def test_a_preset_is_its_list_of_passes(name):
     limit = PRESETS[name].maxdeviation / FULL_DIAGONAL * DIAGONAL
     passes = [
-        {**one.options, **({"maxdeviation": limit} if one.stays_near else {})}
+        {**one.defaults, **one.options, **({"maxdeviation": limit} if one.stays_near else {})}
         for one in PRESETS[name].passes
     ]
     result = optimize_flips(*MESH, preset=name)

@@ -28,6 +28,8 @@ _OWN = re.compile(r"/dev/(?:fd/(?P<number>\d+)|stdout|(?P<error>stderr))")
 
 # Ends the names of hidden folders beside outputs: what a killed process left can be told by it.
 draft_mark = ""
+# Those that are there at the moment, for a process that has to end at once.
+drafts: set[Path] = set()
 
 # A file name takes 255 bytes; a letter up to four.
 _LONGEST_STEM = 40
@@ -88,10 +90,13 @@ def folder_beside(path: Path) -> Iterator[Path]:
         name = tempfile.mkdtemp(draft_mark, f".{path.stem[:_LONGEST_STEM]}.", path.parent)
     except OSError as error:
         raise UnwritableError(path, error.strerror) from error
+    folder = Path(name).absolute()
+    drafts.add(folder)
     try:
         yield Path(name)
     finally:
-        shutil.rmtree(name, ignore_errors=True)
+        shutil.rmtree(folder, ignore_errors=True)
+        drafts.discard(folder)
 
 
 @contextmanager

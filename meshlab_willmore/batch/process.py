@@ -72,7 +72,7 @@ class Task(NamedTuple):
 
 
 class Phase(NamedTuple):
-    """A message: what a task does from now on, and how long it may do so (None: as before)."""
+    """A message: what a task does from now on, and how many seconds that may take."""
 
     name: str
     seconds: float | None = None
@@ -125,7 +125,7 @@ class WorkerProcess:
         self._phase = ""
         self._timed_out: float | None = None
         self._lock = threading.Lock()
-        self._timer: threading.Timer | None = None
+        self._timers: dict[str, threading.Timer] = {}
         self._stack = ExitStack()
         folder = str(self._stack.enter_context(temporary_folder(mark=settings.mark)))
         names = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder)
@@ -164,17 +164,17 @@ class WorkerProcess:
             _write(_stream(self._process.stdin), task)
             while not isinstance(message := read(_stream(self._process.stdout)), Ended):
                 if message is BEGUN:
-                    self._limit(task.seconds)
+                    self._limit("task", task.seconds)
                     continue
                 if isinstance(message, Phase):
                     self._phase = message.name
-                    if message.seconds is not None:
-                        self._limit(message.seconds)
+                    self._limit("phase", message.seconds)
                 listen(message)
         except (OSError, EOFError, pickle.UnpicklingError, ValueError):
             return self._death()
         finally:
-            self._limit(None)
+            self._limit("task", None)
+            self._limit("phase", None)
         self.done += 1
         return message._replace(phase=self._phase)
 
@@ -209,14 +209,13 @@ class WorkerProcess:
             os.waitid(os.P_PID, self._process.pid, os.WEXITED | os.WNOWAIT)
         self.kill()
 
-    def _limit(self, seconds: float | None) -> None:
-        if self._timer is not None:
-            self._timer.cancel()
-            self._timer = None
-        if seconds is not None and seconds <= threading.TIMEOUT_MAX:
-            self._timer = threading.Timer(max(seconds, 0.0), self._time_out, (seconds,))
-            self._timer.daemon = True
-            self._timer.start()
+    def _limit(self, what: str, seconds: float | None) -> None:
+        if what in self._timers:
+            self._timers.pop(what).cancel()
+        if seconds is not None:
+            timer = self._timers[what] = threading.Timer(seconds, self._time_out, (seconds,))
+            timer.daemon = True
+            timer.start()
 
     def _time_out(self, seconds: float) -> None:
         self._timed_out = seconds

@@ -142,6 +142,7 @@ def run(
     OSError
         Outputs can't be written.
     """
+    recipe = recipe_of(script)
     names = [inputs] if isinstance(inputs, (str, os.PathLike)) else list(inputs)
     outputs = [] if output is None else [Output(os.fspath(output))]
     is_continued = resume or retry_failed
@@ -162,7 +163,7 @@ def run(
         client=client,
         renewed_after=renewed_after,
     )
-    with closing(Batch(recipe_of(script), jobs, options)) as batch:
+    with closing(Batch(recipe, jobs, options)) as batch:
         yield from batch.results()
 
 
@@ -296,7 +297,6 @@ class Batch:
             recipe.is_measured,
             recipe.must_be_measured,
             recipe.dry_run,
-            options.timeout,
         )
         folders = tuple({str(place_of(output.path).parent) for output in job.outputs})
         return Task(_WORK, work, options.timeout, folders)

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import logging
-import math
 import pickle
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -73,8 +72,6 @@ class Work(NamedTuple):
         Whether meshes are measured before and after, and whether it is an error if that fails.
     dry_run : bool
         Only read and check.
-    seconds : float or None
-        The time limit.
     """
 
     job: Job
@@ -85,7 +82,6 @@ class Work(NamedTuple):
     is_measured: bool = True
     must_be_measured: bool = False
     dry_run: bool = False
-    seconds: float | None = None
 
 
 class Made(NamedTuple):
@@ -100,13 +96,12 @@ class Made(NamedTuple):
 
 def do(work: Work, say: Say) -> Made:
     """Do the work on a job in a process that may crash; `say` sends what happens."""
-    end = math.inf if work.seconds is None else time.monotonic() + work.seconds
 
-    def begin(phase: str, most: float = math.inf) -> None:
-        say(Phase(phase, min(most, end - time.monotonic())))
+    def begin(phase: str) -> None:
+        say(Phase(phase))
 
     with _noted(say):
-        begin(READING, _time_to_read(work.job))
+        say(Phase(READING, _time_to_read(work.job)))
         with memory.limited(memory.reachable()):
             ms = load(work.job, is_isolated=True)
         begin(MEASURING)
@@ -122,11 +117,11 @@ def do(work: Work, say: Say) -> Made:
     return Made(tuple(outputs), tuple(returned), steps, before, after)
 
 
-def _time_to_read(job: Job) -> float:
+def _time_to_read(job: Job) -> float | None:
     """The seconds for reading the inputs of a job; no limit without any."""
     with suppress(OSError):
-        return sum(map(loading.time_limit, job.inputs)) or math.inf
-    return math.inf
+        return sum(map(loading.time_limit, job.inputs)) or None
+    return None
 
 
 @contextmanager

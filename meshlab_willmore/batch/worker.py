@@ -10,6 +10,7 @@ import signal
 import threading
 import traceback
 from contextlib import suppress
+from pathlib import Path
 from queue import SimpleQueue
 
 from .. import files, machine, memory
@@ -53,7 +54,8 @@ def _receive(tasks: int, waiting: SimpleQueue[bytes]) -> None:
     with suppress(EOFError, OSError):
         while True:
             waiting.put(_read(tasks))
-    shutil.rmtree(os.environ["TMPDIR"], ignore_errors=True)
+    for folder in (*files.drafts, Path(os.environ["TMPDIR"])):
+        shutil.rmtree(folder, ignore_errors=True)
     if hasattr(os, "killpg") and os.getpgrp() == os.getpid():
         os.killpg(0, signal.SIGKILL)
     os._exit(1)

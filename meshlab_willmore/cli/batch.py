@@ -164,6 +164,8 @@ def run_batch(
             _report(result)
     if "summary" in given or sys.stdout.isatty():
         click.echo("\n".join(summary.lines()))
+    if summary.failed == len(jobs) == 1:
+        click.get_current_context().exit(1)
     if summary.failed:
         raise click.ClickException(how_many_failed(summary.failed, summary.failed + summary.done))
 

@@ -104,7 +104,7 @@ def compute(task: Computation, say: Callable[[Any], None]) -> tuple[float | None
         start = time.perf_counter()
         ms.apply_filter(task.filter, **task.given)
         seconds = time.perf_counter() - start
-    say(Phase(MEASURING, math.inf))
+    say(Phase(MEASURING))
     return seconds, quality_of(ms, faces, surface)._asdict()
 
 

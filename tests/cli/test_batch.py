@@ -1,0 +1,96 @@
+"""Options of a batch on the command line, what is printed, and summaries of records."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from .conftest import FLIP, TAUBIN, call, cube_file, listing, same_mesh, script_file
+
+
+def test_records_resume_shards_and_summary():
+    """One test for all that needs workers anyway."""
+    for name in ("one", "two", "three"):
+        cube_file(f"{name}.ply")
+    Path("bad.ply").write_text("no mesh")
+    script = script_file(TAUBIN)
+    arguments = ["run", script, "-i", "*.ply", "-o", "out/{name}.off", "--workers", 1]
+    Path("out").mkdir()
+    first = call(*arguments, "--shard", "1/2", "--json", "1.jsonl", "--log", "log.txt")
+    second = call(
+        *arguments, "--shard", "2/2", "--json", "2.jsonl", "--summary", "--log", "log.txt"
+    )
+    assert sorted((first.exit_code, second.exit_code)) == [0, 1]
+    assert listing("out") == ["one.off", "three.off", "two.off"]
+    assert "apply_coord_taubin_smoothing" in Path("log.txt").read_text()
+    assert "most memory of a worker: " in second.stdout
+
+    total = call("summary", "*.jsonl")
+    assert total.exit_code == 1
+    assert total.stdout.startswith("4 inputs: 3 done, 1 bad file; ")
+    assert "  bad file: cannot read bad.ply: Header not found\n" in total.stdout
+    as_json = json.loads(call("summary", "1.jsonl", "2.jsonl", "--json").stdout)
+    assert as_json["counts"] == {"done": 3, "bad file": 1}
+    assert [record["input"] for record in as_json["failed"]] == ["bad.ply"]
+
+    # The file of another shard is no reason to do anything again, nor is a failure.
+    again = call(*arguments, "--json", "2.jsonl", "--shard", "2/2", "--resume")
+    assert again.exit_code == second.exit_code
+    assert again.stdout == ""
+    refused = call(*arguments, "--json", "2.jsonl")
+    assert refused.exit_code == 2
+
+
+def test_several_meshes_are_flipped_as_one():
+    cube_file("one.ply")
+    cube_file("two.ply")
+    result = call("flip", "one.ply", "two.ply", "{name}_flipped.off", "--energy", "willmore",
+                  "--no-monotone", "--json", "log.jsonl")  # fmt: skip
+    assert result.exit_code == 0, result.stderr
+    line = "one.ply -> one_flipped.off: 10 flips, Willmore energy 45.757 -> "
+    assert sum(text.startswith(line) for text in result.stdout.splitlines()) == 1
+    call("flip", "one.ply", "alone.off", "--energy", "willmore", "--no-monotone")
+    assert same_mesh("alone.off", "two_flipped.off")
+    _, *records = [json.loads(line) for line in Path("log.jsonl").read_text().splitlines()]
+    assert [record["returned"][0]["returned"]["flips"] for record in records] == [10, 10]
+
+
+def test_limit_makes_a_batch_of_one_mesh(cube):
+    endless = ("Laplacian Smooth", {"stepSmoothNum": ("RichInt", 10**9)})
+    script = script_file(TAUBIN, endless)
+    result = call("run", script, "-i", cube, "-o", "out.ply", "--timeout", 1, "--json", "log.jsonl")
+    assert (result.exit_code, result.stdout) == (1, "")
+    assert result.stderr == (
+        "Error: cube.ply: step 2 (apply_coord_laplacian_smoothing): not finished within 1 s\n"
+    )
+    record = json.loads(Path("log.jsonl").read_text().splitlines()[-1])
+    assert record["status"] == "timeout"
+    assert listing() == ["cube.ply", "log.jsonl", "script.mlx"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        (["--resume"], "--resume needs --json FILE.jsonl"),
+        (["--memory", "much"], "--memory much: it must be a size such as 4G or 500M"),
+        (["--memory", "1K"], "memory is 1024, but must be"),
+        (["--shard", "auto"], "--shard auto: there is neither"),
+        (["--workers", "0"], "Invalid value for '--workers'"),
+        (["--json", "cube.ply"], "cube.ply holds no records of a batch; use a new name"),
+        (["--scheduler", "tcp://127.0.0.1:1"], ""),
+    ],
+)
+def test_wrong_options_are_named(cube, monkeypatch, arguments, line):
+    monkeypatch.setenv("DASK_DISTRIBUTED__COMM__TIMEOUTS__CONNECT", "0.2")
+    result = call("run", script_file(FLIP), "-i", cube, "-o", "out.ply", *arguments)
+    assert (result.exit_code, result.stdout) == (1 if "--scheduler" in arguments else 2, "")
+    assert result.stderr.startswith(f"Error: {line}")
+    assert result.stderr.count("\n") == 1
+    assert not Path("out.ply").exists()
+
+
+def test_summary_of_other_files_is_refused(cube):
+    assert call("summary", cube).stderr == (
+        "Error: cube.ply holds no records of a batch; use a new name\n"
+    )
+    assert call("summary", "no.jsonl").exit_code == 2

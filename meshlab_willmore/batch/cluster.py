@@ -50,7 +50,7 @@ class Cluster(Generic[Key]):
 
         left = iter(tasks)
         running: dict[Future, tuple[Key, Task, int]] = {}
-        completed = as_completed()
+        completed = as_completed(loop=self._client.loop)
 
         def submit(key: Key, task: Task, losses: int = 0) -> None:
             future = self._client.submit(attempt, task, self._settings, pure=False)

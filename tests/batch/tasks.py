@@ -94,3 +94,9 @@ def make_a_file(_argument, _say):
 
     tempfile.mkdtemp()
     os.abort()
+
+
+def give_slowly(argument, _say):
+    """Return the argument, so late that a machine is lost meanwhile."""
+    time.sleep(0.8)
+    return argument

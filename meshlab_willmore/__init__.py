@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from ._version import __version__
 
 if TYPE_CHECKING:
-    from . import script
+    from . import batch, script
     from .measure import (
         Measures,
         intersection_angles,
@@ -33,6 +33,7 @@ _HOMES = {
     "measures": "measure",
     "optimize_flips": "optimize",
     "register": "meshset.register",
+    "batch": "",
     "script": "",
     "unregister": "meshset.register",
     "vertex_willmore_energy": "measure",
@@ -43,6 +44,7 @@ __all__ = [
     "FlipResult",
     "Measures",
     "__version__",
+    "batch",
     "intersection_angles",
     "is_registered",
     "measures",

@@ -8,6 +8,7 @@ it was lost is done again elsewhere.
 
 from __future__ import annotations
 
+import asyncio
 import os
 import socket
 import threading
@@ -15,6 +16,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from ..machine import core_count
+from ..messages import one_line
 from .pool import STARTING, Attempted, PoolSettings, Seat
 from .process import CRASH, ERROR, Ended, Task
 
@@ -157,6 +159,17 @@ def client_of(address: str) -> Client:
     except ModuleNotFoundError as error:
         raise ModuleNotFoundError(f"--scheduler needs Dask: {EXTRA}") from error
     try:
+        # A client that finds no scheduler would take a minute to end.
+        asyncio.run(_reach(address))
         return Client(address, set_as_default=False)
-    except (OSError, ValueError) as error:
-        raise OSError(f"the scheduler {address} can't be reached: {error}") from error
+    except (OSError, RuntimeError, ValueError) as error:
+        raise OSError(f"the scheduler {address} can't be reached: {one_line(error)}") from error
+
+
+async def _reach(address: str) -> None:
+    """Connect to a scheduler once."""
+    from distributed.comm import connect
+    from distributed.security import Security
+
+    comm = await connect(address, **Security().get_connection_args("client"))
+    await comm.close()

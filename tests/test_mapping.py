@@ -115,7 +115,7 @@ def assert_kept(faces, wedges, result):
 def test_no_texture_triangle_is_turned_over_or_made_flat(search, energy, name):
     vertices, faces, wedges = MAPPED[name]
     options = {"search": search, "energy": energy, **QUICK}
-    for more in ({}, {"foldangle": 180.0, "monotone": False}):
+    for more in ({}, {"foldangle": 180.0, "minshape": 0.0, "monotone": False}):
         result = optimize_flips(vertices, faces, wedge_uv=wedges, **options, **more)
         assert result.converged
         assert_kept(faces, wedges, result)
@@ -125,7 +125,7 @@ def test_no_texture_triangle_is_turned_over_or_made_flat(search, energy, name):
 @pytest.mark.parametrize("name", ["bumpy grid", "mirrored"])
 def test_without_the_guard_triangles_are_turned_over(name):
     vertices, faces, wedges = MAPPED[name]
-    result = optimize_flips(vertices, faces, energy="area", foldangle=180.0)
+    result = optimize_flips(vertices, faces, energy="area", foldangle=180.0, minshape=0.0)
     old, new = counts(wedges), counts(carried(wedges, result))
     assert new[0] < old[0] or new[1] < old[1]
 
@@ -209,7 +209,9 @@ def test_a_mapping_in_which_all_is_well_changes_nothing(search):
 def test_several_mappings_are_kept_at_once():
     vertices, faces, wedges = MAPPED["bumpy grid"]
     both = np.concatenate([vertices[faces, :2], wedges], axis=2)
-    result = optimize_flips(vertices, faces, wedge_uv=both, energy="area", foldangle=180.0)
+    result = optimize_flips(
+        vertices, faces, wedge_uv=both, energy="area", foldangle=180.0, minshape=0.0
+    )
     after = carried(both, result)
     assert result.flips > 0
     for columns in (slice(0, 2), slice(2, 4)):
@@ -253,7 +255,7 @@ def test_the_textured_bunny():
     for options in (
         {},
         {"search": "greedy", "energy": "delaunay"},
-        {"energy": "area", "foldangle": 180.0, "checkintersections": True},
+        {"energy": "area", "foldangle": 180.0, "minshape": 0.0, "checkintersections": True},
         {"search": "annealing", "energy": "willmore", "sweeps": 2},
         {"search": "variable depth", "energy": "mean curvature", **QUICK},
     ):

@@ -41,7 +41,7 @@ with compiling.forbidden():
     for options in (
         {}, {"featuredeg": 30}, {"selection": False}, {"energy": "area", "search": "thorough"},
         {"virtualpoint": "0.1", "search": "variable depth"}, {"checkintersections": True},
-        {"monotone": False, "foldangle": 180}, {"search": "annealing", "sweeps": 3},
+        {"monotone": False, "foldangle": 180, "minshape": 0}, {"search": "annealing", "sweeps": 3},
     ):
         ms = pymeshlab.MeshSet()
         ms.create_cube()

@@ -49,7 +49,7 @@ def test_flips_are_those_of_the_core(energy, monotone):
         {"virtualpoint": "closest"},
         {"virtualpoint": 0.3},
         {"virtualpoint": "0.3"},
-        {"checkintersections": True, "foldangle": 180.0},
+        {"checkintersections": True, "foldangle": 180.0, "minshape": 0.0},
         {"search": "variable depth", "depth": 2, "breadth": 1},
         {"search": "annealing", "sweeps": 3, "seed": 5},
         pytest.param({"search": "thorough", "depth": 2}, marks=pytest.mark.heavy),

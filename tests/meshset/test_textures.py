@@ -289,7 +289,7 @@ def test_two_textures_of_one_name_stay_two(tmp_path):
 
 # --- mappings -----------------------------------------------------------------------------------
 
-OPTIONS = {"energy": "area", "foldangle": 180.0}
+OPTIONS = {"energy": "area", "foldangle": 180.0, "minshape": 0.0}
 
 
 def wedges_of(ms):

@@ -245,7 +245,8 @@ def _best_descent(kernels, begin, found, rules, settings):
     From both, chains without branches go on where they differ: nowhere else would they lead to
     different states.
     """
-    for other_kernels, other_rules in settings.warm_starts:
+    # With the guard, where that way leads depends on the order of the faces.
+    for other_kernels, other_rules in () if begin.bvh.active else settings.warm_starts:
         limited = other_rules._replace(maxflips=rules.maxflips)
         other = extend(begin, _quick_descent(other_kernels, settings), limited)
         other = extend(other, _quick_descent(kernels, settings), rules)

@@ -158,8 +158,7 @@ class Records:
 
     def __init__(self, path: Path, recipe: str) -> None:
         self._file: IO[bytes] = path.open("ab", buffering=0)
-        is_cut = path.stat().st_size > 0 and path.read_bytes()[-1:] != b"\n"
-        if is_cut:
+        if _is_cut(path):
             self._file.write(b"\n")
         self._add({BEGUN: time.time(), "recipe": recipe, "versions": versions()})
 
@@ -173,6 +172,14 @@ class Records:
     def close(self) -> None:
         """Close the file."""
         self._file.close()
+
+
+def _is_cut(path: Path) -> bool:
+    """Whether a file ends within a line."""
+    with path.open("rb") as file:
+        size = file.seek(0, os.SEEK_END)
+        file.seek(max(size - 1, 0))
+        return file.read() not in (b"", b"\n")
 
 
 class Earlier(NamedTuple):

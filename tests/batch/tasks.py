@@ -5,8 +5,10 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 from meshlab_willmore.batch.process import Phase
+from meshlab_willmore.files import folder_beside
 
 _done = []
 
@@ -86,6 +88,12 @@ def print_noise(argument, _say):
     """Print on the standard output, as native filters do."""
     os.write(1, b"noise" * 1000)
     return argument
+
+
+def crash_while_saving(path, _say):
+    with folder_beside(Path(path)) as folder:
+        (folder / "half").write_text("half")
+        os.abort()
 
 
 def make_a_file(_argument, _say):

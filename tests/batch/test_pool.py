@@ -49,20 +49,22 @@ def test_bad_tasks_cost_themselves_only():
         task("leave"),
         task("crash_with_a_child", "crashed"),
         task("make_a_file"),
+        task("crash_while_saving", "half.ply")._replace(folders=(".",)),
     ]
     good = [task("give", number) for number in range(8)]
     before = thing_left() if sys.platform == "linux" else None
     found = ended([*good[:4], *bad, *good[4:]], PoolSettings(workers=2))
-    outcomes = [found[place].ended for place in range(14)]
-    assert [e.value for e in (*outcomes[:4], *outcomes[10:])] == list(range(8))
-    crash, hang, fail, leave, crashed, untidy = outcomes[4:10]
+    outcomes = [found[place].ended for place in range(15)]
+    assert [e.value for e in (*outcomes[:4], *outcomes[11:])] == list(range(8))
+    crash, hang, fail, leave, crashed, untidy, half = outcomes[4:11]
     assert (crash.status, crash.reason) == (CRASH, "crashed (SIGSEGV)")
     assert (hang.status, hang.reason) == (TIMEOUT, "not finished within 1 s")
     assert hang.phase == "hanging"
     assert (fail.status, fail.reason) == (ERROR, "a reason of two lines")
     assert fail.trace.startswith("Traceback")
     assert (leave.status, leave.reason) == (CRASH, "the process ended with exit code 3")
-    assert (crashed.reason, untidy.reason) == ("crashed (SIGABRT)", "crashed (SIGABRT)")
+    assert {each.reason for each in (crashed, untidy, half)} == {"crashed (SIGABRT)"}
+    assert sorted(os.listdir()) == ["crashed", "hung"]
     for name in ("hung", "crashed"):
         child = int(Path(name).read_text())
         wait_for(lambda child=child: not is_running(child))

@@ -13,7 +13,7 @@ FILES = [
         "files.py",
         "    refuse_special(target)\n",
         "",
-        "tests/test_files.py tests/cli/test_saving.py",
+        "tests/test_files.py tests/mesh_files/test_saving.py",
     ),
     Fault(
         "a link is replaced, not its file",
@@ -194,45 +194,45 @@ SETS = [
 COMMANDS = [
     Fault(
         "existing outputs are replaced without --force",
-        "cli/paths.py",
+        "mesh_files/paths.py",
         "if os.path.lexists(path) and not force:",
         "if False:",
-        "tests/cli/test_run.py tests/cli/test_saving.py",
+        "tests/cli/test_run.py tests/mesh_files/test_saving.py",
     ),
     Fault(
         "two outputs may have one name",
-        "cli/paths.py",
+        "batch/jobs.py",
         "            if key in writers:",
         "            if False:",
         "tests/cli/test_run.py",
     ),
     Fault(
         "an input may be replaced by the result of another",
-        "cli/paths.py",
+        "batch/jobs.py",
         "if readers.get(key, source) != source:",
         "if False:",
         "tests/cli/test_run.py",
     ),
     Fault(
         "a bad input ends a batch",
-        "cli/paths.py",
+        "batch/jobs.py",
         "            index += not isinstance(problem, NoMatchError)\n",
         "            if problem:\n                raise problem\n",
-        "tests/cli/test_loading.py",
+        "tests/mesh_files/test_loading.py",
     ),
     Fault(
         "a full disk is not noticed",
-        "cli/saving.py",
+        "mesh_files/saving.py",
         "            file.write(bytes(_ROOM))",
         "            pass",
-        "tests/cli/test_saving.py",
+        "tests/mesh_files/test_saving.py",
     ),
     Fault(
         "after an error new files stay",
-        "cli/saving.py",
+        "mesh_files/saving.py",
         "                file.unlink(missing_ok=True)",
         "                pass",
-        "tests/cli/test_saving.py",
+        "tests/mesh_files/test_saving.py",
     ),
     Fault(
         "the exit code of a signal is 1",
@@ -257,11 +257,70 @@ COMMANDS = [
     ),
     Fault(
         "JSON has numbers that are none",
-        "cli/text.py",
-        "None if isinstance(value, float) and not math.isfinite(value) else value",
-        "value",
+        "batch/steplog.py",
+        "return value if math.isfinite(value) else None",
+        "return value",
         "tests/cli/test_measure.py tests/cli/test_compare.py",
     ),
 ]
 
-FAULTS = [*FILES, *SCRIPTS, *SETS, *COMMANDS]
+BATCHES = [
+    Fault(
+        "children of a hung worker live on",
+        "batch/process.py",
+        "os.killpg(self._process.pid, signal.SIGKILL)",
+        "self._process.kill()",
+        "tests/batch/test_pool.py",
+    ),
+    Fault(
+        "a mesh is blamed for what others left behind",
+        "batch/pool.py",
+        "if ended.status in (CRASH, MEMORY) and not is_fresh and not self._is_closed:",
+        "if False:",
+        "tests/batch/test_pool.py",
+    ),
+    Fault(
+        "what a killed worker was writing stays",
+        "batch/pool.py",
+        "                    remove_drafts(Path(folder), worker.mark)",
+        "                    pass",
+        "tests/batch/test_pool.py",
+    ),
+    Fault(
+        "memory has no limit",
+        "batch/worker.py",
+        "with memory.limited(settings.memory):",
+        "with memory.limited(None):",
+        "tests/batch/test_pool.py",
+    ),
+    Fault(
+        "half an output counts as done",
+        "batch/records.py",
+        "os.path.isfile(saved.file) and os.path.getsize(saved.file) == saved.bytes",
+        "os.path.isfile(saved.file)",
+        "tests/batch/test_runner.py",
+    ),
+    Fault(
+        "what another script did counts as done",
+        "batch/records.py",
+        "result.recipe != recipe or ",
+        "",
+        "tests/batch/test_runner.py",
+    ),
+    Fault(
+        "a file of the user is replaced when a batch goes on",
+        "batch/runner.py",
+        "check_output(output.path, self._options.force or is_own)",
+        "check_output(output.path, True)",
+        "tests/batch/test_runner.py",
+    ),
+    Fault(
+        "shares differ from process to process",
+        "batch/shards.py",
+        "zlib.crc32(os.fsencode(name))",
+        "hash(name)",
+        "tests/batch/test_shards.py",
+    ),
+]
+
+FAULTS = [*FILES, *SCRIPTS, *SETS, *COMMANDS, *BATCHES]

@@ -22,11 +22,12 @@ if TYPE_CHECKING:
         willmore_energy,
     )
     from .meshset.register import is_registered, register, unregister
-    from .optimize import FlipResult, optimize_flips
+    from .optimize import optimize_flips
+    from .results import FlipResult
 
 # Kernels take their time to load: what needs them is fetched when it is first used.
 _HOMES = {
-    "FlipResult": "optimize",
+    "FlipResult": "results",
     "Measures": "measure",
     "intersection_angles": "measure",
     "is_registered": "meshset.register",

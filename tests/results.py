@@ -3,7 +3,7 @@
 import numpy as np
 
 from meshlab_willmore.mesh.build import build
-from meshlab_willmore.optimize import FlipResult
+from meshlab_willmore.results import FlipResult
 from tests import reference
 from tests.connectivity import validate_connectivity
 

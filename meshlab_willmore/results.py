@@ -1,0 +1,99 @@
+"""What `meshlab_willmore.optimize_flips` returns."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+
+class PassResult(NamedTuple):
+    """What one pass of `optimize_flips` did.
+
+    Attributes
+    ----------
+    energy, search : str
+        What it lowered, and how.
+    flips : int
+        Number of flips; with "annealing" random ones, those that went back and forth included.
+    gain : float
+        How much this energy fell, as in a `FlipResult` of one pass.
+    converged : bool
+        Whether no allowed flip lowered this energy any more.
+    """
+
+    energy: str
+    search: str
+    flips: int
+    gain: float
+    converged: bool
+
+
+class FlipResult(NamedTuple):
+    """Result of `optimize_flips`.
+
+    Attributes
+    ----------
+    faces : (m, 3) int32
+        The new faces, in the slots of the old ones.
+    flips : int
+        Number of flips, without those that the search took back. With "annealing", whose random
+        flips go back and forth, the number of edges that the input did not have.
+    gain : float
+        With several passes, how much the Willmore energy fell; else how much the chosen energy
+        fell, in its unit: radians; the unit of the coordinates times
+        radians for "mean curvature", its square for "area", none for "delaunay". The energy
+        "virtual willmore" is not a function of the mesh. For it, the gain is the sum of the cost
+        reductions with the greedy searches, and with the other searches the drop of the Willmore
+        energy, in the form that counts every interior edge.
+    willmore_before, willmore_after : float
+        Willmore energy of the mesh, as `meshlab_willmore.measure.willmore_energy` returns it:
+        summed over interior vertices. The flips lower twice the sum of the intersection angles over
+        all interior edges. On a closed mesh the two differ by a constant. With a boundary, the
+        Willmore energy leaves out the share of the edges at boundary vertices, and can rise.
+    converged : bool
+        Whether no allowed flip lowers the energy any more (with "variable depth": none of the
+        chains of flips that `meshlab_willmore.search.variable_depth` tries), in each pass when it
+        ended. Flips are forbidden by the connectivity, by locks and guards and, with "virtual
+        willmore", by the option `monotone`: if True, flips that raise the Willmore energy, if
+        False, flips to an edge that was flipped away before. So other flips may be left that lower
+        the energy. A second run from the result makes no flip, except: with `monotone` False; with
+        "annealing" and "thorough", which may find more; with "variable depth" where flips tie, as
+        their order, which then decides, depends on that of the faces; with `featuredeg` and
+        `maxdeviation`, as creases are found in the input, and deviations are counted from it; with
+        several passes, as each undoes flips of another;
+        and where flips that keep the Willmore energy go in circles, which the search stops after
+        ten rounds.
+    reason : str
+        Why it stopped.
+    corners : (m, 3) int32
+        For each corner of the new faces a corner ``3 f + c`` of the old ones at the same vertex and
+        on the same side of all locked edges. So ``wedge_data.reshape(3 * m, -1)[corners]`` carries
+        data of the old corners over.
+    deviation : float
+        No point of the result is farther than this from the input, and no point of the input from
+        the result, in units of the coordinates: an upper bound of the Hausdorff distance, of which
+        `meshlab_willmore.guards.deviation` has the proof.
+    absolute_mean_curvature_before, absolute_mean_curvature_after : float
+        Sum of dihedral angle times length over the interior edges, in units of the coordinates
+        times radians.
+    mean_shape_before, mean_shape_after, worst_shape_before, worst_shape_after : float
+        Mean and least of the shapes of all triangles: 1 if equilateral, 0 without area.
+    passes : tuple of PassResult
+        What each pass did, in order.
+    """
+
+    faces: np.ndarray
+    flips: int
+    gain: float
+    willmore_before: float
+    willmore_after: float
+    converged: bool
+    reason: str
+    corners: np.ndarray
+    deviation: float
+    absolute_mean_curvature_before: float
+    absolute_mean_curvature_after: float
+    mean_shape_before: float
+    mean_shape_after: float
+    worst_shape_before: float
+    worst_shape_after: float
+    passes: tuple[PassResult, ...]

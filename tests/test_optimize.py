@@ -12,6 +12,7 @@ from meshlab_willmore.mesh.build import build, faces_of
 from meshlab_willmore.optimize import optimize_flips
 from meshlab_willmore.options import ENERGY, SEARCH
 from meshlab_willmore.search.compiled import KERNELS
+from meshlab_willmore.search.rules import Rules
 from tests import meshes, reference
 from tests.combinations import BOTH_WILLMORE, ENERGIES
 from tests.connectivity import can_flip
@@ -350,7 +351,7 @@ def test_chains_on_the_virtual_energy_leave_it_nothing_to_lower():
 def test_flips_do_not_change_the_least_gain_of_a_flip(energy):
     """The median edge is another one afterwards: a second run would flip what was too little."""
     vertices, faces = BUMPY
-    row, rules = table.ENERGIES[energy], optimize._rules(True, 90.0, None)
+    row, rules = table.ENERGIES[energy], Rules(guards.fold_limits(90.0))
     after = optimize_flips(vertices, faces, energy=energy).faces
     one, other = (optimize._suited(rules, row, build(vertices, f)) for f in (faces, after))
     assert (one.tolerance, one.rank_step) == (other.tolerance, other.rank_step)

@@ -104,7 +104,8 @@ class Settings(NamedTuple):
     schedule : Schedule
         For "annealing".
     warm_starts : tuple of (Kernels, Rules)
-        For "thorough": the energies along which greedy descent makes one more start each.
+        For "variable depth" and "thorough": the energies along which greedy descent makes one more
+        start each.
     threads : int or None
         As many as Numba is set to if None. The result does not depend on it.
     """

@@ -36,7 +36,6 @@ _KIB = 1024
 RECORDS = ".jsonl"
 # Between looks at what workers do.
 _SECONDS = 0.5
-_SHOWN_RUNNING = 3
 
 
 def _remember(ctx: click.Context, option: click.Parameter, value: Any) -> None:
@@ -232,15 +231,14 @@ def _progress(batch: Batch, summary: Summary) -> Iterator[Callable[[], None]]:
     def text() -> str:
         count = summary.done + summary.failed - before
         running = [f"{Path(name).name}: {phase}" for name, phase in batch.running]
-        more = ["..."] if len(running) > _SHOWN_RUNNING else []
         parts = [f"{summary.done} done, {summary.failed} failed"]
-        parts += [", ".join(running[:_SHOWN_RUNNING] + more)] if running else []
         if count:
             left = (time.monotonic() - start) / count * (len(batch.jobs) - count)
             parts.append(f"about {duration(left)} left")
+        parts.append(", ".join(running) or "starting workers")
         return "; ".join(parts)
 
     with progress.shown("batch", len(batch.jobs)) as status:
-        status.next(text())
+        status.next("", text())
         with progress.repeated(lambda: status.detail(text()), _SECONDS):
-            yield lambda: status.next(text())
+            yield lambda: status.next("", text())

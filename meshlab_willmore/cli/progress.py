@@ -52,9 +52,10 @@ class Status:
         """Begin something else."""
         self._what, self._detail, self._since = printable(what), "", self._clock()
 
-    def next(self, what: str) -> None:
+    def next(self, what: str, detail: str = "") -> None:
         """Begin the next part; the one before is done."""
         self.begin(what)
+        self.detail(detail)
         self.count()
 
     def count(self) -> None:

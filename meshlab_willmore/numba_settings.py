@@ -56,6 +56,17 @@ def import_numba() -> None:
     _warn_of_cache()
 
 
+def check_variables() -> None:
+    """Check what can be checked without an import of Numba, for processes that will import it.
+
+    Raises and warns as `import_numba`.
+    """
+    problems = wrong_settings()
+    if problems:
+        raise SettingError(str(join(problems)))
+    _warn_of_cache()
+
+
 # Numba reads its variables once.
 _unread: list[Problem] = []
 

@@ -33,6 +33,7 @@ BEGUN = None
 # No file of the working folder may hide a module.
 _PROGRAM = "import sys; sys.path[:] = {path!r}; from {module} import main; main()"
 _MODULE = "meshlab_willmore.batch.worker"
+_THREADS = "NUMBA_NUM_THREADS"
 # Bytes of the length before each message.
 LENGTH = 8
 
@@ -128,7 +129,9 @@ class WorkerProcess:
         self._timers: dict[str, threading.Timer] = {}
         self._stack = ExitStack()
         folder = str(self._stack.enter_context(temporary_folder(mark=settings.mark)))
-        names = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder)
+        variables = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder)
+        if _allows_more(settings.threads):
+            variables[_THREADS] = str(settings.threads)
         try:
             self._process = subprocess.Popen(
                 [sys.executable, "-c", _PROGRAM.format(path=sys.path, module=_MODULE)],
@@ -136,7 +139,7 @@ class WorkerProcess:
                 stdout=subprocess.PIPE,
                 stderr=subprocess.DEVNULL,
                 cwd=settings.folder,
-                env={**os.environ, **names, "NUMBA_NUM_THREADS": str(settings.threads)},
+                env={**os.environ, **variables},
                 # Ctrl-C on a terminal is for the parent alone, which then ends this process.
                 start_new_session=True,
             )
@@ -237,6 +240,12 @@ class WorkerProcess:
         elif self._memory is not None:
             reason += "; the memory limit may be the cause"
         return Ended(CRASH, reason=reason, phase=self._phase)
+
+
+def _allows_more(threads: int) -> bool:
+    """Whether the user's own setting is none, or more; Numba's check names a wrong one."""
+    own = os.environ.get(_THREADS, str(threads))
+    return own.isdigit() and int(own) >= threads
 
 
 def _stream(stream: IO[bytes] | None) -> IO[bytes]:

@@ -12,12 +12,14 @@ import os
 import platform
 import time
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 from typing import IO, Any, NamedTuple
 
 from .._version import __version__
+from ..files import UnwritableError
 from ..messages import WrongUse
 from .process import DONE
 
@@ -149,7 +151,11 @@ def recipe_of(*parts: object) -> str:
 
 def stamp(inputs: Iterable[Path]) -> tuple[int, int]:
     """The size of files and the time of the last change, to see whether they are the same."""
-    found = [path.stat() for path in inputs if path.exists()]
+    found = []
+    for path in inputs:
+        # What can't be read has none.
+        with suppress(OSError):
+            found.append(path.stat())
     return sum(file.st_size for file in found), max((f.st_mtime_ns for f in found), default=0)
 
 
@@ -157,7 +163,8 @@ class Records:
     """The file that records are added to, each line at once."""
 
     def __init__(self, path: Path, recipe: str) -> None:
-        self._file: IO[bytes] = path.open("ab", buffering=0)
+        self._path = path
+        self._file: IO[bytes] = path.open("ab")
         if _is_cut(path):
             self._file.write(b"\n")
         self._add({BEGUN: time.time(), "recipe": recipe, "versions": versions()})
@@ -167,11 +174,17 @@ class Records:
         self._add(result.as_json())
 
     def _add(self, record: Mapping[str, Any]) -> None:
-        self._file.write(json.dumps(record, allow_nan=False).encode() + b"\n")
+        try:
+            self._file.write(json.dumps(record, allow_nan=False).encode() + b"\n")
+            self._file.flush()
+        except OSError as error:
+            raise UnwritableError(self._path, error.strerror) from error
 
     def close(self) -> None:
         """Close the file."""
-        self._file.close()
+        with suppress(OSError):
+            # That its disk is full was an error before.
+            self._file.close()
 
 
 def _is_cut(path: Path) -> bool:

@@ -25,6 +25,7 @@ from ..machine import MachineError, core_count
 from ..mesh_files.paths import Output, check_output, find_inputs
 from ..messages import WrongUse, one_line
 from ..mlx.steps import ScriptError, Step
+from ..numba_settings import check_variables
 from ..script import examined
 from . import records
 from .cluster import Cluster
@@ -248,6 +249,7 @@ class Batch:
                     return
 
     def _results(self) -> Iterator[Result]:
+        check_variables()
         tasks = []
         for key, job in enumerate(self.jobs):
             if job.problem is None:

@@ -25,7 +25,7 @@ from ..meshset.check import resolve
 from ..meshset.play import Played, play
 from ..messages import counted, notes_taken_by
 from ..mlx.steps import Step
-from . import steplog
+from . import lost_kernels, steplog
 from .jobs import Job
 from .process import Phase
 from .records import Saved, StepResult
@@ -105,8 +105,9 @@ def do(work: Work, say: Say) -> Made:
         with memory.limited(memory.reachable()):
             ms = load(work.job, is_isolated=True)
         begin(MEASURING)
-        before = _measures(ms, work)
-        returned, steps = _steps(work, ms, begin)
+        with lost_kernels.noted():
+            before = _measures(ms, work)
+            returned, steps = _steps(work, ms, begin)
         if work.dry_run:
             return Made((), (), steps, before, None)
         begin(SAVING)
@@ -198,12 +199,13 @@ def measured(ms: pymeshlab.MeshSet) -> dict[str, Any]:
 
 def warm_up(steps: tuple[Step, ...], say: Say) -> None:
     """Compile the kernels that the steps and the measures need, or load them from the cache."""
-    warm_up_filter("get_willmore_measures", {})
-    for call in resolve(steps, "warm-up"):
-        if call.known.is_willmore:
-            ms = pymeshlab.MeshSet()
-            ms.add_mesh(pymeshlab.Mesh(*dented_cube()))
-            play(ms, [call])
+    with lost_kernels.followed():
+        warm_up_filter("get_willmore_measures", {})
+        for call in resolve(steps, "warm-up"):
+            if call.known.is_willmore:
+                ms = pymeshlab.MeshSet()
+                ms.add_mesh(pymeshlab.Mesh(*dented_cube()))
+                play(ms, [call])
 
 
 # --- loading and saving ------------------------------------------------------------------------

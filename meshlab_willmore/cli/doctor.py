@@ -20,6 +20,7 @@ import click
 
 from .. import machine, numba_settings, temporary_files
 from .._version import __version__
+from ..batch.lost_kernels import cache_cure
 from ..messages import counted
 from . import progress
 from .arguments import json_option
@@ -184,10 +185,10 @@ def cache() -> Finding:
     folder = answer.values["folder"]
     if not folder:
         text = "no writable folder: each process compiles again, for ten to thirty seconds"
-        return Finding(name, False, text, progress.cache_cure())
+        return Finding(name, False, text, cache_cure())
     why = machine.unwritable(Path(folder))
     if why:
-        return Finding(name, False, f"{folder}: {why}", progress.cache_cure())
+        return Finding(name, False, f"{folder}: {why}", cache_cure())
     damaged = answer.values.get("damaged")
     if damaged:
         return _damage(name, damaged)

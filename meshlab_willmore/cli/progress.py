@@ -9,19 +9,15 @@ from __future__ import annotations
 
 import io
 import os
-import shlex
 import shutil
 import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
-from pathlib import Path
 from typing import Any, TextIO
 
-import click
-
-from .. import machine, numba_settings
+from ..batch.lost_kernels import note_lost_kernels
 from .text import beginning_of, end_of, printable, terminal_width, width
 
 SECONDS_ON_A_TERMINAL = 1.0
@@ -157,38 +153,7 @@ def with_details(status: Status) -> Iterator[None]:
 
     with listening(status.detail), compiling.followed(follow):
         yield
-    _note_lost_kernels(has_compiled)
-
-
-def _note_lost_kernels(has_compiled: bool) -> None:
-    """Print a note if what this command compiled can't be kept for the next one."""
-    from ..mesh.jit import cache_folder
-    from ..mesh.kernel_cache import write_errors
-
-    if numba_settings.cache_problem() is not None:
-        # That was printed when Numba was imported.
-        return
-    if write_errors:
-        error = write_errors[-1]
-        why = os.strerror(error.errno) if error.errno else str(error)
-        text = f"compiled kernels can't be saved in {cache_folder()}: {why}"
-        write_errors.clear()
-    elif has_compiled and not cache_folder():
-        text = "there is no folder to keep compiled kernels in, so each run compiles again"
-    else:
-        return
-    click.echo(f"Note: {machine.Problem(text, cache_cure())}", err=True)
-
-
-def cache_cure() -> str:
-    """The command that gives the cache a folder: in the home directory if it is writable."""
-    try:
-        home = Path.home()
-    except RuntimeError:
-        home = Path()
-    is_usable = home.is_absolute() and not machine.unwritable(home)
-    folder = str(home / ".cache" / "numba") if is_usable else "/a/folder/of/yours"
-    return f"export {numba_settings.CACHE_DIR}={shlex.quote(folder)}"
+    note_lost_kernels(has_compiled)
 
 
 class _Screen:

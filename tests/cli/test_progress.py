@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from meshlab_willmore.batch.lost_kernels import note_lost_kernels
 from meshlab_willmore.cli import main, progress
 from meshlab_willmore.cli.progress import Status, shown
 from meshlab_willmore.mesh import jit, kernel_cache
@@ -173,8 +174,8 @@ def home(monkeypatch, tmp_path):
 def test_full_cache_is_noted_once(monkeypatch, capsys, home):
     monkeypatch.setattr(jit, "cache_folder", lambda: "/the/cache")
     monkeypatch.setattr(kernel_cache, "write_errors", [OSError(errno.ENOSPC, "full")])
-    progress._note_lost_kernels(True)
-    progress._note_lost_kernels(True)
+    note_lost_kernels(True)
+    note_lost_kernels(True)
     cure = f"export NUMBA_CACHE_DIR={home / '.cache' / 'numba'}"
     text = "compiled kernels can't be saved in /the/cache: No space left on device"
     assert capsys.readouterr().err == f"Note: {text}; fix it with: {cure}\n"
@@ -182,9 +183,9 @@ def test_full_cache_is_noted_once(monkeypatch, capsys, home):
 
 def test_missing_cache_folder_is_noted_after_compiling(monkeypatch, capsys, home):
     monkeypatch.setattr(jit, "cache_folder", lambda: None)
-    progress._note_lost_kernels(False)
+    note_lost_kernels(False)
     assert capsys.readouterr().err == ""
-    progress._note_lost_kernels(True)
+    note_lost_kernels(True)
     line = capsys.readouterr().err
     assert line.startswith("Note: there is no folder to keep compiled kernels in, so each run")
     assert line.count("\n") == 1

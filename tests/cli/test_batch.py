@@ -83,13 +83,24 @@ def test_limit_makes_a_batch_of_one_mesh(cube):
         ),
     ],
 )
-def test_wrong_options_are_named(cube, monkeypatch, arguments, line):
-    monkeypatch.setenv("DASK_DISTRIBUTED__COMM__TIMEOUTS__CONNECT", "0.2")
+def test_wrong_options_are_named(cube, arguments, line):
     result = call("run", script_file(FLIP), "-i", cube, "-o", "out.ply", *arguments)
-    assert (result.exit_code, result.stdout) == (1 if "--scheduler" in arguments else 2, "")
+    assert (result.exit_code, result.stdout) == (2, "")
     assert result.stderr.startswith(f"Error: {line}")
     assert result.stderr.count("\n") == 1
     assert not Path("out.ply").exists()
+
+
+def test_scheduler_that_is_not_there(cube):
+    pytest.importorskip("distributed")
+    import dask
+
+    arguments = ["run", script_file(FLIP), "-i", cube, "-o", "out.ply", "--scheduler"]
+    with dask.config.set({"distributed.comm.timeouts.connect": "0.2s"}):
+        result = call(*arguments, "tcp://127.0.0.1:1")
+    assert (result.exit_code, result.stdout) == (1, "")
+    assert result.stderr.startswith("Error: the scheduler tcp://127.0.0.1:1 can't be reached: ")
+    assert result.stderr.count("\n") == 1
 
 
 def test_summary_of_other_files_is_refused(cube):

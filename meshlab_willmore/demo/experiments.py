@@ -1,4 +1,4 @@
-"""The paper's experiments as chains of PyMeshLab filters, measured after each stage.
+"""The paper's experiments, and a technical part, as chains of PyMeshLab filters, stage by stage.
 
 Source: section 4 of "Mesh optimisation based on Willmore energy".
 """
@@ -14,8 +14,15 @@ from ..mesh.compiling import followed
 from ..options import FILTER
 from ..report.pictures import Camera, Window, camera_from
 from ..report.stages import Stage
-from .models import Surface, dented_cube, sampled_torus, surface_of
-from .recorder import Notify, Recorder
+from .models import (
+    Surface,
+    dented_cube,
+    sampled_torus,
+    scrambled,
+    surface_of,
+    technical_part,
+)
+from .recorder import Notify, Recorder, State
 from .scan import (
     CLEANING,
     KEEP_ONE_OF,
@@ -27,8 +34,10 @@ from .scan import (
 )
 
 FLIPS: Filters = ((FILTER, {}),)
+FAITHFUL: Filters = ((FILTER, {"preset": "faithful"}),)
 CUBE_CAMERA = camera_from((-1.9, -1.0, 1.1), up=(0.0, 0.0, 1.0))
 TORUS_CAMERA = camera_from((0.0, -1.0, 1.1), up=(0.0, 0.0, 1.0))
+PART_CAMERA = camera_from((0.6, 1.0, 0.8), up=(0.0, 0.0, 1.0))
 FACE_CAMERA = camera_from((0.0, 0.0, 1.0), up=(0.0, 1.0, 0.0))
 # The top part of the face, as in Figure 6: from the eyes to the brim of the hat.
 CLOSEUP_CAMERA = FACE_CAMERA._replace(window=Window(left=-50.0, right=16.0, bottom=-20.0, top=32.0))
@@ -37,9 +46,14 @@ Cameras = dict[str, Camera]
 
 
 class Sizes(NamedTuple):
-    """Sizes of the models: vertices of the torus; one of how many points of the scan is kept."""
+    """Sizes of the models.
+
+    Vertices of the torus; edges of the part, in percent of its diagonal; one of how many points of
+    the scan is kept.
+    """
 
     torus_points: int = 2000
+    part_edge_percent: float = 3.0
     keep_one_of: int = KEEP_ONE_OF
 
 
@@ -54,7 +68,7 @@ class DemoResult(NamedTuple):
 
 
 def run_demo(folder: Path, notify: Notify, sizes: Sizes | None = None) -> DemoResult:
-    """Run the three experiments, and write meshes and pictures into a folder.
+    """Run the experiments, and write meshes and pictures into a folder.
 
     Parameters
     ----------
@@ -76,6 +90,7 @@ def run_demo(folder: Path, notify: Notify, sizes: Sizes | None = None) -> DemoRe
     _run_model(recorder, "cube", dented_cube(), {"cube": CUBE_CAMERA})
     torus = sampled_torus(sizes.torus_points)
     _run_model(recorder, "torus", torus, {"torus": TORUS_CAMERA})
+    _run_part(recorder, scrambled(technical_part(sizes.part_edge_percent)))
     try:
         path = scan_file()
     except ScanNotFoundError as reason:
@@ -94,7 +109,7 @@ def _run_model(recorder: Recorder, name: str, surface: Surface, cameras: Cameras
 
 def _run_flips(
     recorder: Recorder, meshes: pymeshlab.MeshSet, initial: Stage, cameras: Cameras
-) -> None:
+) -> State:
     """Flip the current mesh, whose last stage was `initial`; save meshes and pictures."""
     name = initial.model
     recorder.save(meshes, f"{name}-before")
@@ -102,7 +117,24 @@ def _run_flips(
     after = recorder.run_stage(meshes, name, "Willmore flips", FLIPS), surface_of(meshes)
     recorder.save(meshes, f"{name}-after")
     for picture, camera in cameras.items():
-        recorder.save_picture(picture, before, after, camera)
+        recorder.save_picture(picture, camera, before, after)
+    return after
+
+
+def _run_part(recorder: Recorder, surface: Surface) -> None:
+    """Flip the edges of a part as the paper does, and by the preset that finds creases back."""
+    states = []
+    for number, filters in enumerate((FLIPS, FAITHFUL)):
+        meshes = pymeshlab.MeshSet()
+        meshes.add_mesh(pymeshlab.Mesh(*surface), "part")
+        if not number:
+            initial = recorder.run_stage(meshes, "part", "scrambled")
+            recorder.save(meshes, "part-before")
+            states.append((initial, surface))
+        name = "faithful" if number else "Willmore flips"
+        states.append((recorder.run_stage(meshes, "part", name, filters), surface_of(meshes)))
+        recorder.save(meshes, f"part-{'faithful' if number else 'after'}")
+    recorder.save_picture("part", PART_CAMERA, *states)
 
 
 def _run_face(recorder: Recorder, path: Path, keep_one_of: int) -> None:
@@ -123,8 +155,13 @@ def _run_face(recorder: Recorder, path: Path, keep_one_of: int) -> None:
     meshes = pymeshlab.MeshSet()
     meshes.add_mesh(pymeshlab.Mesh(*face), "face")
     initial = recorder.run_stage(meshes, "face", "initial, cleaned", CLEANING)
+    faithful = pymeshlab.MeshSet()
+    faithful.add_mesh(pymeshlab.Mesh(*surface_of(meshes)), "face")
     cameras = {"face": FACE_CAMERA, "face-closeup": CLOSEUP_CAMERA}
-    _run_flips(recorder, meshes, initial, cameras)
+    paper = _run_flips(recorder, meshes, initial, cameras)
+    other = recorder.run_stage(faithful, "face", "faithful", FAITHFUL), surface_of(faithful)
+    recorder.save(faithful, "face-faithful")
+    recorder.save_picture("face-presets", CLOSEUP_CAMERA, paper, other)
     recorder.run_stage(meshes, "face", "Taubin smoothing", SMOOTHING)
     recorder.save(meshes, "face-smoothed")
 
@@ -142,6 +179,6 @@ def _warm_up(notify: Notify) -> None:
     meshes = pymeshlab.MeshSet()
     meshes.add_mesh(pymeshlab.Mesh(*dented_cube()))
     with followed(follow):
-        for name, given in FLIPS:
+        for name, given in (*FLIPS, *FAITHFUL):
             meshes.apply_filter(name, **given)
         meshes.get_willmore_measures()

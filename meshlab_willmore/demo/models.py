@@ -1,4 +1,4 @@
-"""The paper's first two models, and the planar Delaunay triangulation that the others start from.
+"""The paper's first two models, a technical part, and the planar Delaunay triangulation.
 
 Source: section 4 of "Mesh optimisation based on Willmore energy". All arrays are float64 vertices
 (n, 3) and int32 faces (m, 3), counter-clockwise seen from outside.
@@ -12,6 +12,12 @@ import numpy as np
 import pymeshlab
 from numpy.typing import NDArray
 
+from ..guards import fold_limits, folds
+from ..mesh.build import build, faces_of
+from ..mesh.halfedge import flip, is_free, makes_new_edge
+from ..mesh.jit import jit
+
+RIGHT_ANGLE = 90.0
 MAJOR_RADIUS = 3.0
 MINOR_RADIUS = 1.0
 
@@ -85,6 +91,49 @@ def sampled_torus(points: int = 2000, jitter: float = 0.3, stretch: float = 8.0)
     distance = MAJOR_RADIUS + MINOR_RADIUS * np.cos(v)
     vertices = np.stack([distance * np.cos(u), distance * np.sin(u), MINOR_RADIUS * np.sin(v)], 1)
     return Surface(vertices, faces)
+
+
+def technical_part(edge_percent: float = 3.0) -> Surface:
+    """Return a block minus a bore through it and a ball at one corner.
+
+    Parameters
+    ----------
+    edge_percent
+        Length of the edges, in percent of the diagonal.
+    """
+    ms = pymeshlab.MeshSet()
+    ms.create_cube(size=2.0)
+    ms.create_cone(r0=0.5, r1=0.5, h=4.0, subdiv=48)
+    ms.generate_boolean_difference(first_mesh=0, second_mesh=1)
+    ms.create_sphere(radius=0.7, subdiv=4)
+    ball = surface_of(ms)
+    ms.add_mesh(pymeshlab.Mesh(ball.vertices + 1.0, ball.faces))
+    ms.generate_boolean_difference(first_mesh=2, second_mesh=4)
+    ms.meshing_isotropic_explicit_remeshing(
+        targetlen=pymeshlab.PercentageValue(edge_percent), featuredeg=30.0, iterations=10
+    )
+    return surface_of(ms)
+
+
+def scrambled(surface: Surface, flips_per_edge: float = 0.3, seed: int = 0) -> Surface:
+    """Return a mesh after random flips that connectivity and fold guard allow."""
+    mesh = build(*surface)
+    wanted = round(flips_per_edge * len(mesh.origin) / 2)
+    # More than are needed, as not every flip is allowed.
+    draws = np.random.default_rng(seed).integers(0, len(mesh.origin), 10 * wanted)
+    _make_flips(mesh, draws, fold_limits(RIGHT_ANGLE), wanted)
+    return Surface(surface.vertices, faces_of(mesh))
+
+
+@jit
+def _make_flips(mesh, draws, limits, wanted):
+    """Flip the half-edges drawn where that is allowed, in place, until there are enough flips."""
+    for h in draws:
+        if wanted == 0:
+            break
+        if is_free(mesh, h) and makes_new_edge(mesh, h) and not folds(mesh, h, limits):
+            flip(mesh, h)
+            wanted -= 1
 
 
 def planar_delaunay(points: NDArray[np.float64], stretch: float = 1.0) -> NDArray[np.int32]:

@@ -62,6 +62,7 @@ class Recorder:
             mean_curvature=totals["absolute_mean_curvature"],
             worst_shape=float(np.quantile(triangle_shapes(*surface), WORST_SHARE)),
             seconds=seconds if filters else None,
+            preset=next((given["preset"] for _, given in filters if "preset" in given), ""),
         )
         self.stages.append(stage)
         return stage
@@ -73,12 +74,12 @@ class Recorder:
             meshes.save_current_mesh(str(draft), binary=True)
         self.files.append(path)
 
-    def save_picture(self, name: str, before: State, after: State, camera: pictures.Camera) -> None:
-        """Draw a mesh before and after the flips, if matplotlib is installed."""
+    def save_picture(self, name: str, camera: pictures.Camera, *states: State) -> None:
+        """Draw states of a mesh side by side, if matplotlib is installed."""
         if not self._can_draw:
             return
         self.notify(f"picture: {name}")
-        figure = pictures.comparison(camera, _shot(*before), _shot(*after))
+        figure = pictures.comparison(camera, *(_shot(*state) for state in states))
         path = self.folder / f"{name}.png"
         with atomic_write(path) as draft:
             figure.savefig(draft)
@@ -87,4 +88,6 @@ class Recorder:
 
 def _shot(stage: Stage, surface: Surface) -> pictures.Shot:
     state = "before" if stage.flips is None else f"after {stage.flips} flips"
+    if stage.preset:
+        state += f" ({stage.preset})"
     return pictures.Shot(f"{state}: W = {significant(stage.willmore)}", *surface)

@@ -20,7 +20,10 @@ LEGEND = (
 
 
 class Stage(NamedTuple):
-    """The state of a mesh after one stage of a chain; None where a column does not apply."""
+    """The state of a mesh after one stage of a chain; None where a column does not apply.
+
+    `preset` is that of the stage's flips, or empty.
+    """
 
     model: str
     name: str
@@ -31,6 +34,7 @@ class Stage(NamedTuple):
     mean_curvature: float
     worst_shape: float
     seconds: float | None
+    preset: str = ""
 
 
 HEADER = ("", "faces", "flips", "W", "area", "M", "shape", "seconds")

@@ -10,13 +10,16 @@ from meshlab_willmore.demo.experiments import CLOSEUP_CAMERA, FLIPS, Sizes, run_
 from meshlab_willmore.demo.models import (
     Surface,
     dented_cube,
+    scrambled,
     surface_of,
+    technical_part,
 )
 from meshlab_willmore.measure import measures, triangle_shapes
+from tests.fuzz import promise
 
 from .conftest import canonical, upright
 
-SMALL = Sizes(torus_points=200, keep_one_of=60)
+SMALL = Sizes(torus_points=200, part_edge_percent=6.0, keep_one_of=60)
 
 
 @pytest.fixture(scope="module")
@@ -51,12 +54,16 @@ def test_the_demo_has_its_stages(demo):
         ("cube", "Willmore flips"),
         ("torus", "initial"),
         ("torus", "Willmore flips"),
+        ("part", "scrambled"),
+        ("part", "Willmore flips"),
+        ("part", "faithful"),
         ("scan", "as scanned"),
         ("scan", "cleaned"),
         ("scan", "Willmore flips"),
         ("scan", "Taubin smoothing"),
         ("face", "initial, cleaned"),
         ("face", "Willmore flips"),
+        ("face", "faithful"),
         ("face", "Taubin smoothing"),
     ]
     for stage in result.stages:
@@ -68,7 +75,7 @@ def test_the_demo_has_its_stages(demo):
 def test_flips_lower_the_energy_and_keep_the_faces(demo):
     _, result, _ = demo
     for before, after in zip(result.stages, result.stages[1:], strict=False):
-        if after.flips is not None:
+        if after.flips is not None and not after.preset:
             assert after.flips > 0
             assert after.model == before.model
             assert after.faces == before.faces
@@ -77,6 +84,31 @@ def test_flips_lower_the_energy_and_keep_the_faces(demo):
             assert after.mean_curvature < before.mean_curvature
             assert after.worst_shape >= before.worst_shape
             assert after.seconds >= 0
+
+
+@pytest.mark.heavy
+def test_the_faithful_preset_leaves_the_least_mean_curvature(demo):
+    _, result, _ = demo
+    rows = {(stage.model, stage.name): stage for stage in result.stages}
+    for model, initial in (("part", "scrambled"), ("face", "initial, cleaned")):
+        found = [rows[model, name] for name in (initial, "Willmore flips", "faithful")]
+        assert found[0].mean_curvature > found[1].mean_curvature > found[2].mean_curvature
+        assert found[2].preset == "faithful"
+        assert len({stage.faces for stage in found}) == 1
+
+
+@pytest.mark.heavy
+def test_the_part_is_closed_and_scrambled_by_legal_flips_only():
+    part = technical_part(6.0)
+    assert measures(*part).gaussian_curvature == pytest.approx(0.0, abs=1e-9)
+    other = scrambled(part)
+    promise.check_connectivity(part.faces, other.faces)
+    new = promise.edges(promise.half_edges(other.faces)) - promise.edges(
+        promise.half_edges(part.faces)
+    )
+    assert 0.15 < len(new) / (1.5 * len(part.faces)) <= 0.3
+    assert scrambled(part).faces.tobytes() == other.faces.tobytes()
+    assert scrambled(part, seed=1).faces.tobytes() != other.faces.tobytes()
 
 
 @pytest.mark.heavy
@@ -97,13 +129,17 @@ def test_meshes_are_written_and_only_edges_differ(demo):
     assert sorted(folder.iterdir()) == sorted(result.files)
     names = {path.stem for path in result.files if path.suffix == ".ply"}
     assert names == {
-        *(f"{model}-{state}" for model in ("cube", "torus", "scan", "face")
+        *(f"{model}-{state}" for model in ("cube", "torus", "part", "scan", "face")
           for state in ("before", "after")),
+        "part-faithful",
+        "face-faithful",
         "scan-smoothed",
         "face-smoothed",
     }  # fmt: skip
-    rows = {(stage.model, stage.flips is not None): stage for stage in result.stages}
-    for model in ("cube", "torus", "scan", "face"):
+    rows = {
+        (stage.model, stage.flips is not None): stage for stage in result.stages if not stage.preset
+    }
+    for model in ("cube", "torus", "part", "scan", "face"):
         path = folder / f"{model}-before.ply"
         assert path.read_bytes().startswith(b"ply\nformat binary_little_endian")
         before, after = loaded(path), loaded(folder / f"{model}-after.ply")
@@ -129,8 +165,10 @@ def test_pictures_are_written_and_not_blank(demo):
     assert [path.name for path in paths] == [
         "cube.png",
         "torus.png",
+        "part.png",
         "face.png",
         "face-closeup.png",
+        "face-presets.png",
     ]
     for path in paths:
         page = image.imread(folder / path)[:, :, :3]
@@ -155,7 +193,8 @@ def test_closeup_lies_within_the_face(cleaned):
 def test_the_demo_goes_on_without_the_scan(no_scan, tmp_path):
     lines = []
     result = run_demo(tmp_path, lines.append, SMALL)
-    assert [stage.model for stage in result.stages] == ["cube", "cube", "torus", "torus"]
+    models = [stage.model for stage in result.stages]
+    assert models == ["cube", "cube", "torus", "torus", "part", "part", "part"]
     assert lines[-1].startswith("no face: this build of PyMeshLab does not carry")
 
 

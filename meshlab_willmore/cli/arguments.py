@@ -86,8 +86,6 @@ class _Length(click.ParamType):
     name = "LENGTH|PERCENT%"
 
     def convert(self, value: Any, param: Any, ctx: Any) -> Any:
-        import pymeshlab
-
         from ..mlx.rich import parse_share
         from ..mlx.steps import Percentage
 
@@ -95,9 +93,8 @@ class _Length(click.ParamType):
             share = parse_share(value)
         except ValueError as error:
             self.fail(f"{value!r} {error}", param, ctx)
-        if isinstance(share, Percentage):
-            return pymeshlab.PercentageValue(share.percent)
-        return pymeshlab.PureValue(share)
+        # In contrast to PyMeshLab's own, these can be sent to other processes.
+        return share if isinstance(share, Percentage) else Length(share)
 
 
 def _help(option: Option) -> str:

@@ -1,4 +1,4 @@
-"""`meshlab-willmore compare`: energies, searches and MeshLab's own flips side by side."""
+"""`meshlab-willmore compare`: presets, energies, searches and MeshLab's own flips side by side."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .. import numba_settings
 from ..batch.steplog import for_json
 from ..mesh_files.paths import only_input
 from ..messages import WrongUse
-from ..options import ALLOWLOSS, ENERGY, SEARCH, SELECTION, Option
+from ..options import ALLOWLOSS, ENERGY, PRESET, SEARCH, SELECTION, Option
 from . import compare_row, progress
 from .arguments import check_flip_options, flip_options, json_option
 from .compare_row import Comparison, Outcome, check_reference
@@ -34,10 +34,14 @@ Examples:
   meshlab-willmore compare rough.ply --reference fine.ply --no-peers --json > rows.json
 """
 TIMEOUT = 60.0
-# These two choose the rows.
+# These choose the rows.
 _ROWS = (SEARCH, ENERGY)
-# No options of this command for all rows: those two, and what is the same in every comparison.
-_NOT_SHARED = {option.name for option in (*_ROWS, SELECTION, ALLOWLOSS)}
+# No options of this command for all rows: what chooses these, and what is the same in all.
+_NOT_SHARED = {option.name for option in (PRESET, *_ROWS, SELECTION, ALLOWLOSS)}
+
+
+# The first one is what the other rows show.
+_PRESETS = PRESET.choices[1:]
 
 
 class Column(NamedTuple):
@@ -89,10 +93,11 @@ def _time_limit(_: click.Context, __: click.Parameter, seconds: float) -> float:
 
 @click.command(
     "compare",
-    short_help="Compare energies, searches and MeshLab's flips.",
+    short_help="Compare presets, energies, searches and MeshLab's flips.",
     epilog=EXAMPLES,
 )
 @click.argument("source", metavar="IN")
+@_row_option(PRESET)
 @_row_option(SEARCH)
 @_row_option(ENERGY)
 @flip_options(leave_out=_NOT_SHARED)
@@ -126,7 +131,7 @@ def command(
     as_json: bool,
     **given: Any,
 ) -> None:
-    """Flip the edges of IN with all energies and searches, and with MeshLab's own filters.
+    """Flip the edges of IN with all presets, energies and searches, and with MeshLab's own filters.
 
     The result is a table; nothing is saved. Each row runs in a process of its own, one after
     another: a filter that takes too long is stopped, one that crashes does not stop the others. If
@@ -150,14 +155,24 @@ def command(
 
 
 def _rows(given: dict[str, Any], peers: bool) -> list[Row]:
-    from ..compare.rows import INITIAL, PEERS, own_rows
+    from ..compare.rows import INITIAL, PEERS, own_rows, preset_rows
 
-    searches, energies = (
-        dict.fromkeys(given.pop(option.name) or option.choices) for option in _ROWS
-    )
+    presets = dict.fromkeys(given.pop(PRESET.name))
+    chosen = [dict.fromkeys(given.pop(option.name)) for option in _ROWS]
     shared = {name: value for name, value in given.items() if value is not None}
     check_flip_options(shared)
-    return [INITIAL, *own_rows(searches, energies, shared), *(PEERS if peers else ())]
+    rows = [INITIAL]
+    # What is not asked for is left out, unless nothing is.
+    if not any(chosen):
+        rows += preset_rows(presets or _PRESETS, shared)
+    elif presets:
+        rows += preset_rows(presets, shared)
+    if any(chosen) or not presets:
+        searches, energies = (
+            wanted or option.choices for wanted, option in zip(chosen, _ROWS, strict=True)
+        )
+        rows += own_rows(searches, energies, shared)
+    return [*rows, *(PEERS if peers else ())]
 
 
 def _outcomes(comparison: Comparison, rows: Sequence[Row]) -> list[Outcome]:

@@ -1,4 +1,4 @@
-"""The rows of a comparison: our filter with each search and energy, and MeshLab's flip filters."""
+"""The rows of a comparison: our filter's presets, searches and energies, and MeshLab's flips."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import pymeshlab
 from ..demo.models import dented_cube
 from ..meshset.filters import BY_NAME
 from ..options import FILTER
+from ..presets import decided_by
 
 PLANAR = "meshing_edge_flip_by_planar_optimization"
 CURVATURE = "meshing_edge_flip_by_curvature_optimization"
@@ -29,7 +30,7 @@ class Row(NamedTuple):
         The filter's name; empty for the initial mesh.
     given : dict
         The parameters of the filter that differ from their defaults.
-    search, energy : str or None
+    search, energy, preset : str or None
         Those of our filter.
     """
 
@@ -38,6 +39,7 @@ class Row(NamedTuple):
     given: dict[str, Any]
     search: str | None = None
     energy: str | None = None
+    preset: str | None = None
 
 
 INITIAL = Row("initial", "", {})
@@ -75,6 +77,17 @@ def own_rows(
         for search in searches
         for energy in energies
     ]
+
+
+def preset_rows(presets: Iterable[str], given: Mapping[str, Any]) -> list[Row]:
+    """A row for each preset; of the further parameters those that it does not decide itself."""
+    rows = []
+    for preset in presets:
+        decided = decided_by(preset)
+        kept = {name: value for name, value in given.items() if name not in decided}
+        values = {**_SAME_FOR_ALL, **kept, "preset": preset}
+        rows.append(Row(f"preset {preset}", FILTER, values, preset=preset))
+    return rows
 
 
 def warm_up(filter_name: str, given: Mapping[str, Any]) -> None:

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import pymeshlab
 
 from ..mlx.steps import Percentage
+from ..options import Length
 
 # What MeshLab can hold.
 LEAST_INT, MOST_INT = -(2**31), 2**31 - 1
@@ -128,6 +129,8 @@ def _read_float(_: Parameter, value: Any) -> float:
 
 def _read_share(_: Parameter, value: Any) -> float | Percentage:
     # As in PyMeshLab, no plain number: it could be meant as either.
+    if isinstance(value, (Percentage, Length)):
+        return value
     if isinstance(value, pymeshlab.PercentageValue):
         return Percentage(value.value())
     if isinstance(value, pymeshlab.PureValue):

@@ -133,7 +133,18 @@ def test_reference_adds_two_columns(cube, rows):
 @pytest.mark.parametrize(
     ("arguments", "wanted"),
     [
-        ([], ["greedy, virtual willmore", "greedy, willmore"]),
+        (
+            [],
+            [
+                "preset faithful",
+                "preset smooth",
+                "preset shape",
+                "greedy, virtual willmore",
+                "greedy, willmore",
+            ],
+        ),
+        (["--preset", "shape"], ["preset shape"]),
+        (["--preset", "shape", "--energy", "willmore"], ["preset shape", "greedy, willmore"]),
         (["--energy", "willmore"], ["greedy, willmore"]),
         (["--search", "greedy", "--energy", "willmore"], ["greedy, willmore"]),
         (

@@ -26,6 +26,19 @@ def test_there_is_a_row_for_each_search_and_energy_of_the_filter():
         }
 
 
+def test_presets_take_what_they_do_not_decide():
+    given = {"featuredeg": 30.0, "depth": 3}
+    paper, faithful = rows_module.preset_rows(["paper", "faithful"], given)
+    assert (paper.name, faithful.name) == ("preset paper", "preset faithful")
+    assert paper.given["depth"] == 3
+    assert faithful.given == {
+        "preset": "faithful",
+        "featuredeg": 30.0,
+        "selection": False,
+        "allowloss": True,
+    }
+
+
 @pytest.mark.parametrize("peer", rows_module.PEERS, ids=lambda peer: peer.name)
 def test_peers_are_filters_of_meshlab_with_parameters_that_they_have(peer):
     known = find(peer.filter)

@@ -8,6 +8,7 @@ from pymeshlab import PercentageValue, PureValue
 from meshlab_willmore import optimize_flips, script
 from meshlab_willmore.mlx.read import read_bytes
 from tests import meshes
+from tests.cli.conftest import call
 from tests.meshset.conftest import FLIP, script_of, set_of
 
 MESH = meshes.bumpy_sphere(150, 2, bump=0.6)
@@ -63,6 +64,27 @@ def test_a_plain_number_is_no_deviation_as_in_pymeshlab(value):
         pymeshlab.PyMeshLabException, match="a pymeshlab.PercentageValue, or a pymeshlab.PureValue"
     ):
         ms.apply_filter(FLIP, maxdeviation=value)
+
+
+@pytest.mark.parametrize("share", ["0.5%", "0.02"])
+def test_the_command_line_takes_both_alone_in_a_batch_and_for_comparisons(
+    share, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    set_of(*MESH).save_current_mesh("in.ply")
+    set_of(*MESH).save_current_mesh("in2.ply")
+    options = ("--energy", "area", "--maxdeviation", share)
+    alone = call("flip", "in.ply", "out.ply", *options)
+    batch = call("flip", "in.ply", "in2.ply", "{name}_out.ply", *options, "--workers", "1")
+    compared = call("compare", "in.ply", "--no-peers", "--search", "parallel greedy", *options)
+    assert (alone.exit_code, batch.exit_code, compared.exit_code) == (0, 0, 0)
+    limit = PercentageValue(0.5) if share == "0.5%" else PureValue(0.02)
+    _, returned, _ = flipped(energy="area", maxdeviation=limit)
+    assert f": {returned['flips']} flips" in alone.stdout
+    assert batch.stdout.count(f": {returned['flips']} flips") == 2
+    row = next(line for line in compared.stdout.splitlines() if line.startswith("parallel"))
+    assert f" {returned['flips']} " in row
+    assert returned["flips"] < flipped(energy="area")[1]["flips"]
 
 
 def test_a_length_below_zero_is_refused():

@@ -47,7 +47,7 @@ def torus():
 
 def ellipsoid():
     """The ellipsoid with the axes 4 : 1 : 0.5."""
-    vertices, faces = sphere(7)
+    vertices, faces = sphere(6)
     return vertices * (4.0, 1.0, 0.5), faces
 
 

@@ -29,7 +29,7 @@ MESHLIB_ITERATIONS = 100
 
 
 class Tool(NamedTuple):
-    """A way to flip edges; `run` returns None where it takes too long or does not keep the mesh."""
+    """A way to flip edges; `run` returns None where it takes too long, fails, or loses faces."""
 
     name: str
     run: Callable
@@ -79,7 +79,11 @@ def _filtered(name, given, vertices, faces):
     ms = pymeshlab.MeshSet()
     ms.add_mesh(pymeshlab.Mesh(vertices, faces))
     start = time.perf_counter()
-    ms.apply_filter(name, **given)
+    try:
+        ms.apply_filter(name, **given)
+    except pymeshlab.PyMeshLabException:
+        # They refuse meshes that are not manifold.
+        return None
     seconds = time.perf_counter() - start
     return arrays_of(ms)[1], seconds
 

@@ -1,7 +1,7 @@
 """Which flips find a surface back? Prints the tables of docs/presets.md.
 
-Run by hand, from the top of the repository (a quarter of an hour; `--searches` takes hours less
-`--models`):
+Run by hand, from the top of the repository (a quarter of an hour on a busy machine; all energies
+with all searches take far longer, so choose models there):
 
     python -m studies.faithful
     python -m studies.faithful --searches --models torus bunny

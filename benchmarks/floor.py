@@ -18,7 +18,7 @@ import numba
 import numpy as np
 
 from benchmarks import machine
-from meshlab_willmore import guards, optimize
+from meshlab_willmore import execution, guards
 from meshlab_willmore.energy import virtual, willmore
 from meshlab_willmore.energy.angles import radians, rough
 from meshlab_willmore.energy.table import ENERGIES
@@ -124,7 +124,7 @@ def prepared(points):
     """The state of the mesh, the same edges ready for the arithmetic, and these edges."""
     vertices, faces = check_mesh(*meshes.torus(points, 0.3, 8))
     mesh = build(to_unit_scale(vertices, faces)[0], faces)
-    rules = optimize._suited(Rules(guards.fold_limits(90.0)), ENERGIES[ENERGY], mesh)
+    rules = execution.suited(Rules(guards.fold_limits(90.0)), ENERGIES[ENERGY], mesh)
     state = initial_state(mesh, rules, inactive_bvh())
     edges = free_edges(mesh, state.dirty)
     edges = edges[: len(edges) // LANES * LANES]

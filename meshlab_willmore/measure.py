@@ -210,7 +210,11 @@ def self_intersections(vertices, faces):
     MeshLab's compute_selection_by_self_intersections_per_face goes by rounded numbers, skips faces
     that share an edge, and may count others.
     """
-    mesh, _ = _unit_mesh(vertices, faces)
+    return intersecting_faces_of(_unit_mesh(vertices, faces)[0])
+
+
+def intersecting_faces_of(mesh):
+    """Return which faces of a half-edge mesh intersect others, as `self_intersections` does."""
     bvh = build_bvh(mesh)
     marked = np.zeros(len(mesh.origin) // 3, np.bool_)
     for start in range(0, len(marked), FACES_PER_CALL):

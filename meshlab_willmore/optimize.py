@@ -2,18 +2,14 @@
 
 import functools
 import math
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
 from . import guards, options
-from .energy.table import AT, ENERGIES
-from .folds import faces_near_folds, locked_outside
-from .guards.bvh import build_bvh, inactive_bvh
+from .execution import SEARCHES, STOPPED_REASON, run_all, run_keeping_cuts
 from .measure import quality_of, willmore_energy_of
 from .mesh.build import build, changed_edges, in_old_slots, local_order
-from .mesh.halfedge import lengths_of_sides
 from .mesh.validate import (
     check_edges,
     check_mask,
@@ -23,50 +19,9 @@ from .mesh.validate import (
     to_unit_scale,
 )
 from .passes import check_combination, planned
-from .results import FlipResult, PassResult
-from .search import annealing, greedy, multistart, parallel_greedy, variable_depth
-from .search.compiled import KERNELS, PLACED_KERNELS
-from .search.rules import CONVERGED, NO_LIMIT, ChainLimits, Rules, Schedule, Settings
-
-NO_FLIP = "no allowed flip lowers the energy any more"
-NO_CHAIN = "no allowed chain of flips lowers the energy any more"
-STOPPED_REASON = "maxflips reached"
-# Cost reductions are ranked in steps of this part of the median edge, to the energy's power.
-RANK_STEP = 1e-9
-# Steps of the unit of length, and the least median edge that has one.
-UNIT_STEP, SHORTEST = 16.0, 1e-30
-
-
-class Search(NamedTuple):
-    """A search.
-
-    Attributes
-    ----------
-    run : callable
-        With the parameters and the result of `meshlab_willmore.search.greedy.run`.
-    converged : str
-        What it means that it has converged.
-    is_random : bool
-        Whether flips go to and fro, so that their number says nothing of the result: then the edges
-        that have changed are counted.
-    warm_starts : tuple of str
-        Energies along which greedy descent makes one more start each. Chains begin at the better
-        one of the first of them and the mesh itself.
-    """
-
-    run: Callable
-    converged: str
-    is_random: bool = False
-    warm_starts: tuple[str, ...] = ()
-
-
-SEARCHES = {
-    "parallel greedy": Search(parallel_greedy.run, NO_FLIP),
-    "greedy": Search(greedy.run, NO_FLIP),
-    "variable depth": Search(variable_depth.run, NO_CHAIN, warm_starts=("delaunay",)),
-    "annealing": Search(annealing.run, NO_FLIP, is_random=True),
-    "thorough": Search(multistart.run, NO_CHAIN, warm_starts=("delaunay", "mean curvature")),
-}
+from .presets import PRESETS
+from .results import FlipResult
+from .search.rules import NO_LIMIT
 
 
 class _Locks(NamedTuple):
@@ -135,7 +90,9 @@ def optimize_flips(
           curvature", which finds creases and smooth parts back, with chains of two flips where the
           surface is folded; then "delaunay" without moving the surface by more than
           `maxdeviation`, 0.03 % of the bounding box's diagonal by default. Until then `foldangle`
-          and `minshape` are 180 and 0, unless they are given.
+          and `minshape` are 180 and 0, unless they are given. Where the surface is folded and there
+          would be more faces that cut others than before, all is done again with
+          `checkintersections`.
         - "smooth": the lowest Willmore energy.
         - "shape": the best triangles within `maxdeviation` of the input, with the same default.
 
@@ -299,15 +256,10 @@ def optimize_flips(
     before, quality = willmore_energy_of(mesh), quality_of(mesh)
     limit = options.MAXFLIPS.checked(maxflips)
     left = NO_LIMIT if limit is None else min(limit, NO_LIMIT)
-    done, deviation = [], 0.0
-    for one in plan:
-        if one.counts_anew:
-            deviation += mesh.deviation.max(initial=0.0)
-            mesh.deviation[:] = 0.0
-        run = _run_at_folds if one.atfolds else _run
-        done.append(run(one, mesh, exponent, left))
-        left -= done[-1].flips
-    deviation += mesh.deviation.max(initial=0.0)
+    if passes is None and PRESETS[preset].keeps_cuts:
+        done, deviation, _ = run_keeping_cuts(plan, mesh, exponent, left)
+    else:
+        done, deviation, _ = run_all(plan, mesh, exponent, left)
     new_faces, corners = in_old_slots(mesh, order)
     after, quality_after = willmore_energy_of(mesh), quality_of(mesh)
     converged = all(one.converged for one in done)
@@ -334,66 +286,12 @@ def optimize_flips(
     )
 
 
-def _run(one, mesh, exponent, left):
-    """Make the flips of one pass, at most `left`, in place; return its PassResult."""
-    rules = Rules(
-        fold=guards.fold_limits(one.foldangle, one.minshape),
-        monotone=one.monotone,
-        maxflips=left if one.maxflips is None else min(left, one.maxflips),
-        maxdeviation=_at_unit_scale(one.maxdeviation, exponent),
-    )
-    place = one.virtualpoint
-    if not isinstance(place, str):
-        rules, place = rules._replace(virtualpoint=place), AT
-    row = ENERGIES[one.energy]
-    kernels = PLACED_KERNELS[place] if one.energy == "virtual willmore" else KERNELS[one.energy]
-    rules = _suited(rules, row, mesh)
-    search = SEARCHES[one.search]
-    warm_starts = tuple(
-        (KERNELS[name], _suited(rules, ENERGIES[name], mesh)) for name in search.warm_starts
-    )
-    limits, schedule = ChainLimits(one.depth, one.breadth), Schedule(one.sweeps, one.seed)
-    bvh = build_bvh(mesh, exponent) if one.checkintersections else inactive_bvh()
-    progress = search.run(kernels, mesh, rules, bvh, Settings(limits, schedule, warm_starts))
-    gain = in_input_units(progress.gain, exponent * row.length_power)
-    return PassResult(one.energy, one.search, progress.flips, gain, progress.state == CONVERGED)
-
-
-def _run_at_folds(one, mesh, exponent, left):
-    """Make the flips of one pass as `_run` does, but only near folds."""
-    near = faces_near_folds(mesh)
-    if not near.any():
-        return PassResult(one.energy, one.search, 0, 0.0, True)
-    with locked_outside(mesh, near) as part:
-        return _run(one, part, exponent, left)
-
-
-def _at_unit_scale(length, exponent):
-    return math.inf if length is None else in_input_units(length, -exponent)
-
-
 def _diagonal(vertices):
     """Return the diagonal of the bounding box, infinite if it is no float."""
     if not len(vertices):
         return 0.0
     with np.errstate(over="ignore"):
         return float(math.hypot(*np.ptp(vertices, axis=0)))
-
-
-def _suited(rules, row, mesh):
-    """Return the rules as an energy needs them, with tolerances in its unit."""
-    rules = rules._replace(
-        monotone=rules.monotone and not row.is_potential,
-        is_potential=row.is_potential,
-        is_wide=row.is_wide,
-        is_narrow=row.is_narrow,
-    )
-    if not (row.length_power and len(mesh.origin)):
-        return rules
-    # In large steps: flips change the median, and the same tolerance has to hold in a second run.
-    steps = round(math.log(max(float(np.median(lengths_of_sides(mesh))), SHORTEST), UNIT_STEP))
-    unit = UNIT_STEP ** (steps * row.length_power)
-    return rules._replace(tolerance=row.least * unit, rank_step=RANK_STEP * unit)
 
 
 def _locked(mesh, locks, order):

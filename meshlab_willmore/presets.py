@@ -42,11 +42,15 @@ class Preset(NamedTuple):
     maxdeviation : float
         The default of that option, in percent of the bounding box's diagonal; all of it is no
         limit.
+    keeps_cuts : bool
+        Whether the number of faces that cut others must not grow: if it does where the surface was
+        folded on the way, all is done again with the guard against intersections, which is slow.
     """
 
     help: str
     passes: tuple[PresetPass, ...] = ()
     maxdeviation: float = FULL_DIAGONAL
+    keeps_cuts: bool = False
 
 
 # The guards would keep folds that are there already.
@@ -73,6 +77,7 @@ PRESETS = {
             PresetPass({"energy": "delaunay"}, stays_near=True),
         ),
         maxdeviation=0.03,
+        keeps_cuts=True,
     ),
     "smooth": Preset(
         "the lowest Willmore energy",

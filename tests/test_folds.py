@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from meshlab_willmore import folds, guards, optimize_flips
+from meshlab_willmore import execution, folds, guards, optimize, optimize_flips
+from meshlab_willmore.measure import self_intersections
 from meshlab_willmore.mesh.build import build, faces_of
 from meshlab_willmore.mesh.halfedge import flip
 from studies import parts
@@ -85,3 +86,28 @@ def test_the_guards_of_faithful_give_way_to_those_of_the_caller():
     assert guarded != unguarded
     passes = [{**UNGUARDED, "foldangle": 20.0}]
     assert guarded == optimize_flips(vertices, faces, passes=passes).passes[0]
+
+
+def cuts(vertices, faces):
+    return int(self_intersections(vertices, faces).sum())
+
+
+def test_the_faithful_preset_never_leaves_more_cut_faces(monkeypatch):
+    """A crumpled sheet is folded everywhere: without the guard, faces come to cut others."""
+    grew = 0
+    for seed in range(6):
+        vertices, faces = meshes.crumpled(9, seed=seed, noise=0.9)
+        before = cuts(vertices, faces)
+        with monkeypatch.context() as patch:
+            patch.setattr(optimize, "run_keeping_cuts", execution.run_all)
+            free = optimize_flips(vertices, faces, preset="faithful")
+        result = optimize_flips(vertices, faces, preset="faithful")
+        assert cuts(vertices, result.faces) <= before
+        if cuts(vertices, free.faces) > before:
+            grew += 1
+            guarded = optimize_flips(vertices, faces, preset="faithful", checkintersections=True)
+            np.testing.assert_array_equal(result.faces, guarded.faces)
+            assert result.deviation == guarded.deviation
+        else:
+            np.testing.assert_array_equal(result.faces, free.faces)
+    assert 0 < grew < 6

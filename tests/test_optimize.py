@@ -5,7 +5,7 @@ import inspect
 import numpy as np
 import pytest
 
-from meshlab_willmore import guards, optimize
+from meshlab_willmore import execution, guards
 from meshlab_willmore.energy import table, willmore
 from meshlab_willmore.measure import measures, triangle_shapes
 from meshlab_willmore.mesh.build import build, faces_of
@@ -228,7 +228,7 @@ def test_gain_is_the_drop_of_the_energy_in_its_own_unit(energy, search):
 
 
 def test_the_searches_are_the_choices_of_the_option():
-    assert tuple(optimize.SEARCHES) == SEARCH.choices
+    assert tuple(execution.SEARCHES) == SEARCH.choices
 
 
 @pytest.mark.heavy
@@ -353,6 +353,6 @@ def test_flips_do_not_change_the_least_gain_of_a_flip(energy):
     vertices, faces = BUMPY
     row, rules = table.ENERGIES[energy], Rules(guards.fold_limits(90.0))
     after = optimize_flips(vertices, faces, energy=energy).faces
-    one, other = (optimize._suited(rules, row, build(vertices, f)) for f in (faces, after))
+    one, other = (execution.suited(rules, row, build(vertices, f)) for f in (faces, after))
     assert (one.tolerance, one.rank_step) == (other.tolerance, other.rank_step)
     assert one.tolerance > 0.0

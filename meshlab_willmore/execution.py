@@ -1,0 +1,150 @@
+"""Running passes on a half-edge mesh: the table of searches, and their rules and limits."""
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from . import guards
+from .energy.table import AT, ENERGIES
+from .folds import faces_near_folds, locked_outside
+from .guards.bvh import build_bvh, inactive_bvh
+from .measure import intersecting_faces_of
+from .mesh.halfedge import lengths_of_sides
+from .mesh.validate import in_input_units
+from .results import PassResult
+from .search import annealing, greedy, multistart, parallel_greedy, variable_depth
+from .search.compiled import KERNELS, PLACED_KERNELS
+from .search.rules import CONVERGED, ChainLimits, Rules, Schedule, Settings
+from .search.snapshots import assign, copy_of
+
+NO_FLIP = "no allowed flip lowers the energy any more"
+NO_CHAIN = "no allowed chain of flips lowers the energy any more"
+STOPPED_REASON = "maxflips reached"
+# Cost reductions are ranked in steps of this part of the median edge, to the energy's power.
+RANK_STEP = 1e-9
+# Steps of the unit of length, and the least median edge that has one.
+UNIT_STEP, SHORTEST = 16.0, 1e-30
+
+
+class Search(NamedTuple):
+    """A search.
+
+    Attributes
+    ----------
+    run : callable
+        With the parameters and the result of `meshlab_willmore.search.greedy.run`.
+    converged : str
+        What it means that it has converged.
+    is_random : bool
+        Whether flips go to and fro, so that their number says nothing of the result: then the edges
+        that have changed are counted.
+    warm_starts : tuple of str
+        Energies along which greedy descent makes one more start each. Chains begin at the better
+        one of the first of them and the mesh itself.
+    """
+
+    run: Callable
+    converged: str
+    is_random: bool = False
+    warm_starts: tuple[str, ...] = ()
+
+
+SEARCHES = {
+    "parallel greedy": Search(parallel_greedy.run, NO_FLIP),
+    "greedy": Search(greedy.run, NO_FLIP),
+    "variable depth": Search(variable_depth.run, NO_CHAIN, warm_starts=("delaunay",)),
+    "annealing": Search(annealing.run, NO_FLIP, is_random=True),
+    "thorough": Search(multistart.run, NO_CHAIN, warm_starts=("delaunay", "mean curvature")),
+}
+
+
+class Run(NamedTuple):
+    """What all passes did, the deviation at unit scale, and whether one of them met folds."""
+
+    done: list[PassResult]
+    deviation: float
+    met_folds: bool
+
+
+def run_keeping_cuts(plan, mesh, exponent, left):
+    """Do as `run_all`, but again with the guard against intersections if cut faces got more.
+
+    They are counted only if a pass has met folds: elsewhere such flips make none.
+    """
+    begin = copy_of(mesh)
+    run = run_all(plan, mesh, exponent, left)
+    if not run.met_folds or all(one.checkintersections for one in plan):
+        return run
+    before, after = (np.count_nonzero(intersecting_faces_of(each)) for each in (begin, mesh))
+    if after <= before:
+        return run
+    assign(mesh, begin)
+    guarded = [one._replace(checkintersections=True) for one in plan]
+    return run_all(guarded, mesh, exponent, left)
+
+
+def run_all(plan, mesh, exponent, left):
+    """Make the flips of all passes, at most `left`, in place."""
+    done, deviation, met_folds = [], 0.0, False
+    for one in plan:
+        if one.counts_anew:
+            deviation += mesh.deviation.max(initial=0.0)
+            mesh.deviation[:] = 0.0
+        part = faces_near_folds(mesh) if one.atfolds else None
+        if part is None:
+            done.append(_run(one, mesh, exponent, left))
+        elif part.any():
+            met_folds = True
+            with locked_outside(mesh, part) as unlocked:
+                done.append(_run(one, unlocked, exponent, left))
+        else:
+            done.append(PassResult(one.energy, one.search, 0, 0.0, True))
+        left -= done[-1].flips
+    return Run(done, deviation + mesh.deviation.max(initial=0.0), met_folds)
+
+
+def _run(one, mesh, exponent, left):
+    """Make the flips of one pass, at most `left`, in place; return its PassResult."""
+    rules = Rules(
+        fold=guards.fold_limits(one.foldangle, one.minshape),
+        monotone=one.monotone,
+        maxflips=left if one.maxflips is None else min(left, one.maxflips),
+        maxdeviation=_at_unit_scale(one.maxdeviation, exponent),
+    )
+    place = one.virtualpoint
+    if not isinstance(place, str):
+        rules, place = rules._replace(virtualpoint=place), AT
+    row = ENERGIES[one.energy]
+    kernels = PLACED_KERNELS[place] if one.energy == "virtual willmore" else KERNELS[one.energy]
+    rules = suited(rules, row, mesh)
+    search = SEARCHES[one.search]
+    warm_starts = tuple(
+        (KERNELS[name], suited(rules, ENERGIES[name], mesh)) for name in search.warm_starts
+    )
+    limits, schedule = ChainLimits(one.depth, one.breadth), Schedule(one.sweeps, one.seed)
+    bvh = build_bvh(mesh, exponent) if one.checkintersections else inactive_bvh()
+    progress = search.run(kernels, mesh, rules, bvh, Settings(limits, schedule, warm_starts))
+    gain = in_input_units(progress.gain, exponent * row.length_power)
+    return PassResult(one.energy, one.search, progress.flips, gain, progress.state == CONVERGED)
+
+
+def _at_unit_scale(length, exponent):
+    return math.inf if length is None else in_input_units(length, -exponent)
+
+
+def suited(rules, row, mesh):
+    """Return the rules as an energy needs them, with tolerances in its unit."""
+    rules = rules._replace(
+        monotone=rules.monotone and not row.is_potential,
+        is_potential=row.is_potential,
+        is_wide=row.is_wide,
+        is_narrow=row.is_narrow,
+    )
+    if not (row.length_power and len(mesh.origin)):
+        return rules
+    # In large steps: flips change the median, and the same tolerance has to hold in a second run.
+    steps = round(math.log(max(float(np.median(lengths_of_sides(mesh))), SHORTEST), UNIT_STEP))
+    unit = UNIT_STEP ** (steps * row.length_power)
+    return rules._replace(tolerance=row.least * unit, rank_step=RANK_STEP * unit)

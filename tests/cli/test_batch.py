@@ -77,10 +77,6 @@ def test_limit_makes_a_batch_of_one_mesh(cube):
         (["--shard", "auto"], "--shard auto: there is neither"),
         (["--workers", "0"], "Invalid value for '--workers'"),
         (["--json", "cube.ply"], "cube.ply holds no records of a batch; use a new name"),
-        (
-            ["--scheduler", "tcp://127.0.0.1:1"],
-            "the scheduler tcp://127.0.0.1:1 can't be reached: ",
-        ),
     ],
 )
 def test_wrong_options_are_named(cube, arguments, line):

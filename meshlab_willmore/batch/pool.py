@@ -96,12 +96,15 @@ class Seat:
         self._worker: WorkerProcess | None = None
         self._lock = threading.Lock()
         self._is_closed = False
+        # Whether the process has done nothing but its warm-up, and whether it has done that.
+        self._is_fresh = self._is_warm = False
 
     def attempt(self, task: Task, listen: Callable[[Any], None]) -> Attempted:
         """Do a task, again where it fails and may; `Phase` messages begin each attempt."""
         attempts = 0
         while True:
-            worker, is_fresh = self.ready()
+            worker, is_fresh = self.ready(), self._is_fresh
+            self._is_fresh = False
             listen(STARTING)
             ended = worker.do(task, listen)
             if ended.status not in (DONE, ERROR):
@@ -117,34 +120,34 @@ class Seat:
             if is_final or attempts > self._settings.retries:
                 return Attempted(ended, attempts)
 
-    def ready(self) -> tuple[WorkerProcess, bool]:
-        """The process, warmed up, and whether it has done no task yet.
-
-        Raises `InterruptedError` if the place was closed.
-        """
+    def start(self) -> WorkerProcess:
+        """Start the process unless it runs. Raises `InterruptedError` if the place was closed."""
         if self._worker is not None:
-            return self._worker, False
+            return self._worker
         settings = self._settings
         mark = f"{own_mark()}-{next(_numbers)}"
         worker = WorkerProcess(
             WorkerSettings(settings.threads, settings.memory, mark, settings.folder)
         )
+        self._is_fresh, self._is_warm = True, settings.warm_up is None
         with self._lock:
             self._worker = worker
         if self._is_closed:
             self.close()
             raise InterruptedError
-        if self._settings.warm_up is not None:
-            ended = worker.do(self._settings.warm_up)
-            if ended.status not in (DONE, ERROR):
+        return worker
+
+    def ready(self) -> WorkerProcess:
+        """The process, started and warmed up."""
+        worker = self.start()
+        if self._settings.warm_up is not None and not self._is_warm:
+            self._is_warm = True
+            if worker.do(self._settings.warm_up).status not in (DONE, ERROR):
                 # The meshes will say what is wrong.
                 self._drop()
-                return self._without_warm_up()
-        return worker, True
-
-    def _without_warm_up(self) -> tuple[WorkerProcess, bool]:
-        self._settings = self._settings._replace(warm_up=None)
-        return self.ready()
+                self._settings = self._settings._replace(warm_up=None)
+                return self.start()
+        return worker
 
     def _drop(self) -> None:
         with self._lock:
@@ -253,6 +256,7 @@ class Pool(Generic[Key]):
             seat.ready()
             self._is_warm.set()
         else:
+            seat.start()
             self._is_warm.wait()
 
     def _listener(

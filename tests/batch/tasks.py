@@ -46,6 +46,12 @@ def crash_unless_fresh(argument, _say):
     return argument
 
 
+def crash_and_count(path, _say):
+    with open(path, "a") as file:
+        file.write("x")
+    os.abort()
+
+
 def hang(path, say):
     """Hang in native code, with a child."""
     import pymeshlab

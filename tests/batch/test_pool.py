@@ -79,6 +79,13 @@ def test_task_is_not_blamed_for_what_others_left_behind():
     assert (first.ended.value, third.ended.value) == (1, 3)
 
 
+@POSIX
+def test_crash_of_a_fresh_worker_is_the_tasks_own():
+    """Each attempt adds a letter."""
+    (crashed,) = seated(task("crash_and_count", "count"), warm_up=task("give", 0))
+    assert (crashed.ended.status, Path("count").read_text()) == (CRASH, "x")
+
+
 def test_worker_stays_alive_and_is_renewed():
     counts = [a.ended.value for a in seated(*[task("count")] * 3, renewed_after=2)]
     assert [number for number, _ in counts] == [1, 2, 1]

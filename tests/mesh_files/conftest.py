@@ -1,3 +1,3 @@
 """The folder and the helpers of the tests of commands, which read and write mesh files too."""
 
-from tests.cli.conftest import _folder, _quick_machine  # noqa: F401
+from tests.cli.conftest import _folder, _quick_machine, cube  # noqa: F401

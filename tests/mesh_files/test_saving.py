@@ -410,3 +410,32 @@ def test_textures_are_compared_by_pixels(tmp_path):
     saving.write_texture(image, tmp_path / "out.png", [encoded_anew, SAMPLES / IMAGE])
     assert (tmp_path / "out.png").read_bytes() == encoded_anew.read_bytes()
     assert listing(tmp_path) == ["anew.png", "out.png"]
+
+
+# Several processes of a batch
+
+
+def test_files_that_come_meanwhile_are_not_replaced():
+    """As where another process saves a texture of the same name at the same time."""
+    Path("new").write_text("pixels")
+    Path("same").write_text("pixels")
+    Path("other").write_text("other pixels")
+    assert saving._place_new(Path("new"), Path("placed")) is True
+    assert saving._place_new(Path("new"), Path("same")) is False
+    with pytest.raises(OSError, match="belongs to another output"):
+        saving._place_new(Path("new"), Path("other"))
+    assert Path("placed").read_text() == "pixels"
+    assert Path("other").read_text() == "other pixels"
+
+
+def test_file_of_the_batch_is_replaced_and_one_from_before_is_not(cube):
+    """A mesh may have been saved by an attempt of which nobody heard."""
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(cube))
+    Path("out.off").write_text("of an attempt")
+    save(ms, Path("out.off"), SaveOptions(begun=os.path.getmtime("out.off") - 1.0))
+    assert loaded("out.off").faces.shape == (24, 3)
+    Path("mine.off").write_text("mine")
+    with pytest.raises(FileExistsError, match="already exists; use --force"):
+        save(ms, Path("mine.off"), SaveOptions(begun=os.path.getmtime("mine.off") + 1.0))
+    assert Path("mine.off").read_text() == "mine"

@@ -7,10 +7,9 @@ import pymeshlab
 import pytest
 
 from meshlab_willmore import script
+from meshlab_willmore.demo.models import scrambled, technical_part
 from meshlab_willmore.measure import measures, triangle_shapes
-from meshlab_willmore.mesh.build import build, faces_of
 from tests.meshset.conftest import FLIP, SAMPLES, set_of
-from tests.search.ways import scramble
 
 FOLDER = Path(__file__).parents[1] / "filter_scripts"
 SCRIPTS = sorted(FOLDER.glob("*.mlx"))
@@ -58,16 +57,13 @@ def test_clean_and_flip_a_face_scan():
 
 
 @pytest.mark.heavy
-def test_the_faithful_script_finds_the_creases_of_a_scrambled_box_back():
-    box = pymeshlab.MeshSet()
-    box.create_cube()
-    box.meshing_surface_subdivision_midpoint(iterations=3, threshold=pymeshlab.PureValue(0.0))
-    vertices, faces = box.current_mesh().vertex_matrix(), box.current_mesh().face_matrix()
-    ms = set_of(vertices, faces_of(scramble(build(vertices, faces), 0, flips_per_edge=1)))
-    bends = measures(vertices, faces).absolute_mean_curvature
+def test_the_faithful_script_finds_the_creases_of_a_scrambled_part_back():
+    part = technical_part(6.0)
+    ms = set_of(*scrambled(part))
+    bends = measures(*part).absolute_mean_curvature
     flips = run("faithful.mlx", ms)[FLIP].returned
     assert flips["absolute_mean_curvature_before"] > 1.2 * bends
-    assert flips["absolute_mean_curvature_after"] == pytest.approx(bends, rel=1e-3)
+    assert flips["absolute_mean_curvature_after"] < bends
     assert flips["mean_shape_after"] > flips["mean_shape_before"]
 
 

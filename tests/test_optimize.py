@@ -31,6 +31,8 @@ def test_signature_is_the_promised_one():
     defaults = {name: p.default for name, p in parameters.items() if p.kind == p.KEYWORD_ONLY}
     assert list(parameters)[:2] == ["vertices", "faces"]
     assert defaults == {
+        "preset": "paper",
+        "passes": None,
         "energy": "virtual willmore",
         "search": "parallel greedy",
         "depth": 5,
@@ -40,6 +42,8 @@ def test_signature_is_the_promised_one():
         "virtualpoint": "midpoint",
         "monotone": True,
         "foldangle": 90.0,
+        "minshape": 0.05,
+        "maxdeviation": None,
         "checkintersections": False,
         "featuredeg": 180.0,
         "selected_faces": None,

@@ -12,12 +12,6 @@ import numpy as np
 import pymeshlab
 from numpy.typing import NDArray
 
-from ..guards import fold_limits, folds
-from ..mesh.build import build, faces_of
-from ..mesh.halfedge import flip, is_free, makes_new_edge
-from ..mesh.jit import jit
-
-RIGHT_ANGLE = 90.0
 MAJOR_RADIUS = 3.0
 MINOR_RADIUS = 1.0
 
@@ -116,24 +110,34 @@ def technical_part(edge_percent: float = 3.0) -> Surface:
 
 
 def scrambled(surface: Surface, flips_per_edge: float = 0.3, seed: int = 0) -> Surface:
-    """Return a mesh after random flips that connectivity and fold guard allow."""
-    mesh = build(*surface)
-    wanted = round(flips_per_edge * len(mesh.origin) / 2)
-    # More than are needed, as not every flip is allowed.
-    draws = np.random.default_rng(seed).integers(0, len(mesh.origin), 10 * wanted)
-    _make_flips(mesh, draws, fold_limits(RIGHT_ANGLE), wanted)
-    return Surface(surface.vertices, faces_of(mesh))
+    """Return a closed mesh after random flips to edges that are bent by a right angle at most."""
+    vertices, faces = surface.vertices, surface.faces.tolist()
+    # The face on the left of each half-edge.
+    face_at = {(f[c - 1], f[c]): n for n, f in enumerate(faces) for c in range(3)}
+    rng = np.random.default_rng(seed)
+    left = round(flips_per_edge * len(face_at) / 2)
+    while left > 0:
+        n, c = (int(rng.integers(count)) for count in (len(faces), 3))
+        i, j, k = faces[n][c - 2], faces[n][c - 1], faces[n][c]
+        m = face_at[j, i]
+        l = next(v for v in faces[m] if v not in (i, j))
+        new = [k, i, l], [l, j, k]
+        if (k, l) in face_at or (l, k) in face_at or _angle_cosine(vertices, *new) < 0.0:
+            continue
+        del face_at[i, j], face_at[j, i]
+        for number, face in zip((n, m), new, strict=True):
+            faces[number] = face
+            face_at.update({(face[x - 1], face[x]): number for x in range(3)})
+        left -= 1
+    return Surface(vertices, np.array(faces, np.int32))
 
 
-@jit
-def _make_flips(mesh, draws, limits, wanted):
-    """Flip the half-edges drawn where that is allowed, in place, until there are enough flips."""
-    for h in draws:
-        if wanted == 0:
-            break
-        if is_free(mesh, h) and makes_new_edge(mesh, h) and not folds(mesh, h, limits):
-            flip(mesh, h)
-            wanted -= 1
+def _angle_cosine(vertices: NDArray[np.float64], one: list[int], other: list[int]) -> float:
+    """Return the cosine of the angle between the normals of two faces, up to a positive factor."""
+    normals = [
+        np.cross(vertices[b] - vertices[a], vertices[c] - vertices[a]) for a, b, c in (one, other)
+    ]
+    return float(normals[0] @ normals[1])
 
 
 def planar_delaunay(points: NDArray[np.float64], stretch: float = 1.0) -> NDArray[np.int32]:

@@ -206,10 +206,13 @@ def test_without_matplotlib_there_are_meshes_and_the_table(no_scan, monkeypatch,
     lines = []
     result = run_demo(tmp_path, lines.append, SMALL)
     assert 'pip install "meshlab-willmore[demo]"' in lines[0]
-    assert len(result.stages) == 4
+    assert len(result.stages) == 7
     assert sorted(path.name for path in tmp_path.iterdir()) == [
         "cube-after.ply",
         "cube-before.ply",
+        "part-after.ply",
+        "part-before.ply",
+        "part-faithful.ply",
         "torus-after.ply",
         "torus-before.ply",
     ]

@@ -52,7 +52,7 @@ def test_other_threads_are_not_heard():
         ("greedy", " edges left"),
         ("variable depth", "chains, "),
         ("annealing", "temperature 3 of 3, "),
-        ("thorough", "start 3 of 3, chains, "),
+        ("thorough", "start 2 of 2, chains, "),
     ],
 )
 def test_every_search_reports_how_far_it_is(search, words):

@@ -8,6 +8,8 @@ from tests import meshes
 
 MESH = meshes.bumpy_sphere(40, 1, bump=0.6)
 
+FREE = {"foldangle": 180.0, "minshape": 0.0}
+
 
 @pytest.mark.parametrize(
     ("options", "error", "message"),
@@ -28,12 +30,13 @@ def test_wrong_options_are_refused(options, error, message):
 def test_seed_and_sweeps_reach_the_annealing():
     def anneal(seed, sweeps):
         return optimize_flips(
-            *MESH, energy="willmore", search="annealing", seed=seed, sweeps=sweeps, foldangle=180.0
+            *MESH, energy="willmore", search="annealing", seed=seed, sweeps=sweeps, **FREE
         )
 
     results = [anneal(*pair) for pair in ((0, 20), (0, 20), (1, 20), (0, 40))]
     np.testing.assert_array_equal(results[0].faces, results[1].faces)
-    assert results[0][1:-1] == results[1][1:-1]
+    one, other = (result._replace(faces=None, corners=None) for result in results[:2])
+    assert one == other
     assert len({result.flips for result in results}) > 1
     for result in results:
         assert result.gain == pytest.approx(result.willmore_before - result.willmore_after)

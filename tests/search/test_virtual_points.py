@@ -60,7 +60,7 @@ def test_chains_are_ranked_by_these_points(place, name):
     limits = ChainLimits(3, 1)
     flips = greedy.run(kernels, scanned, rules()).flips
     scan = Scan(rules(), limits, cost_reduction, willmore.cost_reduction)
-    flips += sum(scan.run(scanned, rounds=100)) + sum(scan.doubts(scanned))
+    flips += sum(scan.search(scanned))
     progress = variable_depth.run(kernels, searched, rules(), None, Settings(limits))
     validate_connectivity(searched)
     np.testing.assert_array_equal(faces_of(searched), faces_of(scanned))

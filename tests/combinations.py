@@ -16,11 +16,12 @@ def _param(energy, *values):
 
 
 ENERGIES = [_param(energy) for energy in table.ENERGIES]
-# `energy` and `monotone`, which means nothing where a cost reduction is the drop of the energy.
+# `energy` and `monotone`, which means nothing where a cost reduction is the drop of the energy; but
+# with it a flip of a narrow energy has to score as many edges as those of the others.
 ENERGIES_AND_RULES = [
     _param(energy, monotone)
     for energy, row in table.ENERGIES.items()
-    for monotone in ((True,) if row.is_potential else (True, False))
+    for monotone in ((True, False) if row.is_narrow or not row.is_potential else (True,))
 ]
 
 

@@ -92,7 +92,9 @@ def test_the_virtual_points_reach_the_search(search):
     for result in results.values():
         check(vertices, faces, result)
         assert result.converged
-    assert len({result.faces.tobytes() for result in results.values()}) == len(PLACES)
+    # Chains go on from the better of two descents, one of which knows of no virtual points.
+    least = len(PLACES) if search == "greedy" else 2
+    assert len({result.faces.tobytes() for result in results.values()}) >= least
     np.testing.assert_array_equal(flip(0.5).faces, results["midpoint"].faces)
     np.testing.assert_array_equal(flip(0.75).faces, results[0.25].faces)
     np.testing.assert_array_equal(flip(np.float32(0.25)).faces, results[0.25].faces)

@@ -122,7 +122,7 @@ def _flip(state, h, cost_reduction):
     add_deviation(state.mesh, h)
     if state.rules.is_wide:
         work += visit_fans(state, h, scoring.rescore, cost_reduction)
-    elif state.rules.is_narrow:
+    elif state.rules.is_narrow and not state.rules.monotone:
         visit_quad(state, h, scoring.rescore, cost_reduction)
     else:
         visit_stencil(state, h, scoring.rescore, cost_reduction)

@@ -212,7 +212,7 @@ def mark_changed(state, start, stop):
             stencil.visit_fans(state, h, rounds.mark_dirty, None)
             for corner in (h, t, previous(h), previous(t)):
                 state.taken[mesh.origin[corner]] = False
-        elif state.rules.is_narrow:
+        elif state.rules.is_narrow and not state.rules.monotone:
             stencil.visit_quad(state, h, rounds.mark_dirty, None)
         else:
             stencil.visit_stencil(state, h, rounds.mark_dirty, None)

@@ -181,7 +181,9 @@ def test_no_process_outlives_the_command(task, temporary, number, code, said):
     child = int(Path("child").read_text())
     assert is_running(child)
     process.send_signal(number)
-    assert process.communicate(timeout=PATIENCE) == ("", said)
+    output, errors = process.communicate(timeout=PATIENCE)
+    # On a slow machine there may be a line on how far it is.
+    assert (output, errors[len(errors) - len(said) :]) == ("", said)
     assert process.returncode == code
     wait_for(lambda: not is_running(child))
     if number == signal.SIGKILL:

@@ -222,7 +222,7 @@ def test_demo_in_a_subprocess(tmp_path):
     # Something may be compiled, or not; on a slow machine there are lines on how far it is.
     stages = {line.partition(":")[0] for line in done.stderr.splitlines()}
     stages -= {"compiling (the first run only)", "demo"}
-    assert stages == {"cube", "torus", "scan", "face", "picture"}
+    assert stages == {"cube", "torus", "part", "scan", "face", "picture"}
 
 
 def test_default_output_of_demo(monkeypatch, tmp_path):

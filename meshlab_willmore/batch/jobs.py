@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from ..mesh_files.paths import Input, NoMatchError, Output, check_output
 from ..messages import WrongUse
+from .shards import Shard
 
 
 class Job(NamedTuple):
@@ -35,16 +36,22 @@ class Job(NamedTuple):
 
 
 def plan(
-    inputs: Sequence[Input], outputs: Sequence[Output], layers: bool, force: bool
+    inputs: Sequence[Input],
+    outputs: Sequence[Output],
+    layers: bool,
+    force: bool,
+    shard: Shard | None = None,
 ) -> list[Job]:
     """Divide inputs and outputs into jobs, and check every output as `check_output` does.
 
     Folders with a placeholder in their name are made. An input that can't be read has a job without
-    outputs; the others go on. Raises `WrongUse` if
-    inputs and outputs don't fit together, or no job is left.
+    outputs; the others go on. Only the jobs of the shard are returned, and only their files
+    checked: those of other shards may have been written already. Raises `WrongUse` if inputs and
+    outputs don't fit together.
     """
-    jobs = list(_jobs(inputs, outputs, layers))
-    _check_distinct(jobs, [path for path, _ in inputs] if len(jobs) > 1 else ())
+    planned = list(_jobs(inputs, outputs, layers))
+    _check_distinct(planned, [path for path, _ in inputs] if len(planned) > 1 else ())
+    jobs = [job for job in planned if shard is None or shard.has(job.name)]
     for job in jobs:
         for output, pattern in zip(job.outputs, outputs, strict=False):
             if "{" in os.path.dirname(pattern.name) and _fixed_part(pattern.name).is_dir():

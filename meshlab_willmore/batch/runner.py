@@ -33,7 +33,7 @@ from .jobs import Job, plan
 from .pool import RENEWED_AFTER, STARTING, Attempted, Pool, PoolSettings, is_running, own_mark
 from .process import CRASH, DONE, ERROR, MEMORY, TIMEOUT, Ended, Phase, Task
 from .records import BAD_FILE, Earlier, Records, Result
-from .shards import Shard, shard_of
+from .shards import shard_of
 from .work import READING, Line, Made, Note, Work
 
 if TYPE_CHECKING:
@@ -69,7 +69,6 @@ class BatchOptions(NamedTuple):
     resume: bool = False
     retry_failed: bool = False
     stop: bool = False
-    shard: Shard | None = None
     client: Client | None = None
     renewed_after: int = RENEWED_AFTER
 
@@ -148,7 +147,11 @@ def run(
     outputs = [] if output is None else [Output(os.fspath(output))]
     is_continued = resume or retry_failed
     jobs = plan(
-        find_inputs([os.fspath(name) for name in names]), outputs, False, force or is_continued
+        find_inputs([os.fspath(name) for name in names]),
+        outputs,
+        False,
+        force or is_continued,
+        None if shard is None else shard_of(shard),
     )
     options = BatchOptions(
         workers=workers,
@@ -160,7 +163,6 @@ def run(
         resume=is_continued,
         retry_failed=retry_failed,
         stop=stop,
-        shard=None if shard is None else shard_of(shard),
         client=client,
         renewed_after=renewed_after,
     )
@@ -191,12 +193,11 @@ class Batch:
         What stays as an earlier run has left it.
     """
 
-    def __init__(self, recipe: Recipe, jobs: Iterable[Job], options: BatchOptions) -> None:
+    def __init__(self, recipe: Recipe, jobs: Sequence[Job], options: BatchOptions) -> None:
         _check(options)
         self._recipe = recipe
         self._options = options
-        chosen = [job for job in jobs if options.shard is None or options.shard.has(job.name)]
-        self._hash = records.recipe_of(*_description(recipe), *_manners(chosen))
+        self._hash = records.recipe_of(*_description(recipe), *_manners(jobs))
         if options.log is not None:
             records.check(options.log, options.resume, options.force)
         log = options.log if options.resume else None
@@ -204,7 +205,7 @@ class Batch:
         self._begun = known.begun.get(self._hash, time.time())
         self.earlier: list[Result] = []
         self.jobs: list[Job] = []
-        for job in chosen:
+        for job in jobs:
             settled = known.settles(job.name, self._hash, records.stamp(job.inputs))
             if settled is not None and (settled.is_done or not options.retry_failed):
                 self.earlier.append(settled)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..batch.jobs import Job, plan
 from ..batch.shards import shard_of
 from ..batch.steplog import log
 from ..batch.summary import Summary, duration, failure
@@ -23,9 +24,9 @@ from .text import how_many_failed
 if TYPE_CHECKING:
     from distributed import Client
 
-    from ..batch.jobs import Job
     from ..batch.records import Result
     from ..batch.runner import Batch, Recipe
+    from ..mesh_files.paths import Input, Output
 
 # Where click keeps the options of a batch that were given.
 _GIVEN = "batch"
@@ -116,6 +117,15 @@ def is_resumed() -> bool:
     return bool(given_options().keys() & {"resume", "retry_failed"})
 
 
+def planned(
+    inputs: Sequence[Input], outputs: Sequence[Output], layers: bool, force: bool
+) -> list[Job]:
+    """The jobs of a command, or those of its shard; see `meshlab_willmore.batch.jobs.plan`."""
+    given = given_options()
+    shard = shard_of(given["shard"]) if "shard" in given else None
+    return plan(inputs, outputs, layers, force or is_resumed(), shard)
+
+
 def is_batch(jobs: Sequence[object]) -> bool:
     """Whether worker processes are used: for several inputs, or with an option of a batch."""
     return len(jobs) > 1 or bool(given_options().keys() - {"stop"})
@@ -188,7 +198,6 @@ def _options(given: dict[str, Any], force: bool, dry_run: bool, stack: ExitStack
         resume=is_continued,
         retry_failed="retry_failed" in given,
         stop="stop" in given or is_debug(),
-        shard=shard_of(given["shard"]) if "shard" in given else None,
         client=client,
     )
 

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..batch.jobs import Job, plan
+from ..batch.jobs import Job
 from ..mesh_files import loading
 from ..mesh_files.paths import Output, find_inputs
 from ..messages import WrongUse, reason
 from ..options import FILTER
 from . import progress
 from .arguments import SeveralParts, check_flip_options, flip_options, force_option, mask_option
-from .batch import batch_options, is_batch, is_resumed, json_file_option, run_batch
+from .batch import batch_options, is_batch, json_file_option, planned, run_batch
 from .errors import debug_option
 from .text import flip_results
 
@@ -61,7 +61,7 @@ def command(
     if len(inputs) > 1 and not output.has_placeholder:
         example = "'{name}_flipped.ply'"
         raise WrongUse(f"{len(inputs)} inputs need an output with a placeholder, such as {example}")
-    jobs = plan(inputs, [output], False, force or is_resumed())
+    jobs = planned(inputs, [output], False, force)
     if is_batch(jobs):
         from ..batch.runner import Recipe
 

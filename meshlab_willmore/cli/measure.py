@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..batch.jobs import Job, plan
+from ..batch.jobs import Job
 from ..batch.steplog import for_json
 from ..machine import stops_all
 from ..mesh_files import loading
 from ..mesh_files.paths import find_inputs
 from ..messages import WrongUse, one_line, reason
 from . import progress
-from .batch import RECORDS, batch_options, given_options, is_batch, run_batch
+from .batch import RECORDS, batch_options, given_options, is_batch, planned, run_batch
 from .errors import debug_option, failure_of, is_debug
 from .scripts import STANDARD_STREAM
 from .text import fitted, table
@@ -87,7 +87,7 @@ def command(files: tuple[str, ...], json_file: str | None) -> None:
         given_options()["log"] = Path(json_file)
     measured: list[dict[str, Any]] = []
     try:
-        _measure(plan(inputs, (), False, False), measured)
+        _measure(planned(inputs, (), False, False), measured)
     finally:
         if as_json:
             click.echo(json.dumps([for_json(row) for row in measured], indent=2))

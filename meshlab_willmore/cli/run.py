@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING, NamedTuple
 import click
 
 from ..batch import steplog
-from ..batch.jobs import Job, plan
+from ..batch.jobs import Job
 from ..batch.steplog import log
 from ..mesh_files.paths import PLACEHOLDERS, Output, find_inputs
 from ..messages import WrongUse, counted, one_line
 from ..signals import killable
 from . import progress, runlog
 from .arguments import LAYER_HELP, force_option, mask_option, take_outputs
-from .batch import batch_options, is_batch, is_resumed, json_file_option, run_batch
+from .batch import batch_options, is_batch, json_file_option, planned, run_batch
 from .errors import debug_option
 from .scripts import Script, read_script
 from .text import saved_text, step_results
@@ -176,7 +176,7 @@ def command(
     """
     source = _script_of(script, also)
     options = RunOptions(source.name, _steps(source, settings), force, dry_run, set())
-    jobs = plan(find_inputs(inputs), outputs, layers, force or is_resumed())
+    jobs = planned(find_inputs(inputs), outputs, layers, force)
     runlog.check(log_file, [Path(source.name), *(file for job in jobs for file in job.files)])
     with runlog.opened(None if dry_run else log_file, source.name):
         _run_all(options, jobs)

@@ -10,7 +10,8 @@ from .conftest import FLIP, TAUBIN, call, cube_file, listing, same_mesh, script_
 
 def test_records_resume_shards_and_summary():
     """One test for all that needs workers anyway."""
-    for name in ("one", "two", "three"):
+    # Both shares have good ones: "four" and "bad" are the first.
+    for name in ("one", "three", "four"):
         cube_file(f"{name}.ply")
     Path("bad.ply").write_text("no mesh")
     script = script_file(TAUBIN)
@@ -21,7 +22,7 @@ def test_records_resume_shards_and_summary():
         *arguments, "--shard", "2/2", "--json", "2.jsonl", "--summary", "--log", "log.txt"
     )
     assert sorted((first.exit_code, second.exit_code)) == [0, 1]
-    assert listing("out") == ["one.off", "three.off", "two.off"]
+    assert listing("out") == ["four.off", "one.off", "three.off"]
     assert "apply_coord_taubin_smoothing" in Path("log.txt").read_text()
     assert "most memory of a worker: " in second.stdout
 
@@ -39,6 +40,7 @@ def test_records_resume_shards_and_summary():
     assert again.stdout == ""
     refused = call(*arguments, "--json", "2.jsonl")
     assert refused.exit_code == 2
+    assert refused.stderr.startswith("Error: out/four.off already exists")
 
 
 def test_several_meshes_are_flipped_as_one():

@@ -11,7 +11,7 @@ import json
 import os
 import platform
 import time
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import cache
 from importlib.metadata import version
@@ -201,10 +201,17 @@ class Earlier(NamedTuple):
     results: dict[str, Result]
     begun: dict[str, float]
 
-    def settles(self, name: str, recipe: str, stamp: tuple[int, int]) -> Result | None:
-        """The result of an input if it still holds: same input and recipe, and outputs whole."""
+    def settles(
+        self, name: str, recipe: str, stamp: tuple[int, int], outputs: Sequence[str]
+    ) -> Result | None:
+        """The result of an input if it still holds.
+
+        It does for the same input, recipe and names of outputs, if those are whole.
+        """
         result = self.results.get(name)
         if result is None or result.recipe != recipe or (result.size, result.modified) != stamp:
+            return None
+        if result.is_done and [saved.file for saved in result.outputs] != list(outputs):
             return None
         is_whole = all(
             os.path.isfile(saved.file) and os.path.getsize(saved.file) == saved.bytes

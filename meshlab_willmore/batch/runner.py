@@ -206,7 +206,8 @@ class Batch:
         self.earlier: list[Result] = []
         self.jobs: list[Job] = []
         for job in jobs:
-            settled = known.settles(job.name, self._hash, records.stamp(job.inputs))
+            outputs = [str(output.path) for output in job.outputs]
+            settled = known.settles(job.name, self._hash, records.stamp(job.inputs), outputs)
             if settled is not None and (settled.is_done or not options.retry_failed):
                 self.earlier.append(settled)
             else:
@@ -384,9 +385,9 @@ def _code(function: object) -> str:
         return ""
 
 
-def _manners(jobs: Sequence[Job]) -> set[tuple[tuple[str, ...], str]]:
-    """How outputs are saved: parts and layers."""
-    return {(output.parts, output.layer) for job in jobs for output in job.outputs}
+def _manners(jobs: Sequence[Job]) -> list[tuple[tuple[str, ...], str]]:
+    """How outputs are saved: parts and layers, in an order that is always the same."""
+    return sorted({(output.parts, output.layer) for job in jobs for output in job.outputs})
 
 
 def _remove_stale(folders: Iterable[Path]) -> None:

@@ -78,9 +78,35 @@ def test_script_on_many_meshes_and_again():
     assert list(batch.run(script, "in/**/*.ply", pattern, resume=True, **given)) == []
     failed = batch.run(script, "in/**/*.ply", pattern, retry_failed=True, **given)
     assert statuses(failed) == {"in/b/bad.ply": "bad file"}
+    # What is done has not been written to another name.
+    elsewhere = batch.run(script, "in/a/*.ply", "out/{index}.ply", resume=True, **given)
+    assert statuses(elsewhere) == {"in/a/one.ply": "done", "in/a/more.ply": "done"}
     # Another script is another batch.
     other = [*batch.run(script_file(FLIP), "in/a/*.ply", None, resume=True, **given)]
     assert statuses(other) == {"in/a/one.ply": "done", "in/a/more.ply": "done"}
+
+
+HASH = """
+from meshlab_willmore.batch.jobs import Job
+from meshlab_willmore.batch.runner import Batch, BatchOptions, Recipe
+from meshlab_willmore.mesh_files.paths import Output
+outputs = tuple(Output(f"{part}.ply", (part,)) for part in ("vc", "fc", "vn", "wt"))
+print(Batch(Recipe((), "script"), [Job((), outputs)], BatchOptions())._hash)
+"""
+
+
+def test_recipe_is_the_same_in_each_process():
+    """Python's order of sets is not."""
+    hashes = {
+        subprocess.run(
+            [sys.executable, "-c", HASH],
+            env={**os.environ, "PYTHONHASHSEED": str(seed)},
+            stdout=subprocess.PIPE,
+            check=True,
+        ).stdout
+        for seed in (1, 2)
+    }
+    assert len(hashes) == 1
 
 
 def test_files_of_others_are_not_replaced(monkeypatch):

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import IO, Any, NamedTuple
 
 from .._version import __version__
-from ..files import UnwritableError
+from ..files import UnwritableError, is_stream, opened_stream
 from ..messages import WrongUse
 from .process import DONE
 
@@ -160,13 +160,11 @@ def stamp(inputs: Iterable[Path]) -> tuple[int, int]:
 
 
 class Records:
-    """The file that records are added to, each line at once."""
+    """The file, pipe or device that records are added to, each line at once."""
 
     def __init__(self, path: Path, recipe: str) -> None:
         self._path = path
-        self._file: IO[bytes] = path.open("ab")
-        if _is_cut(path):
-            self._file.write(b"\n")
+        self._file: IO[bytes] = _opened(path)
         self._add({BEGUN: time.time(), "recipe": recipe, "versions": versions()})
 
     def add(self, result: Result) -> None:
@@ -185,6 +183,19 @@ class Records:
         with suppress(OSError):
             # That its disk is full was an error before.
             self._file.close()
+
+
+def _opened(path: Path) -> IO[bytes]:
+    """Open for lines to be added; a line that was cut off is ended."""
+    try:
+        if is_stream(path):
+            return opened_stream(path)
+        file = path.open("ab")
+    except OSError as error:
+        raise UnwritableError(path, error.strerror) from error
+    if _is_cut(path):
+        file.write(b"\n")
+    return file
 
 
 def _is_cut(path: Path) -> bool:
@@ -228,11 +239,14 @@ def read(path: Path) -> Earlier:
     results: dict[str, Result] = {}
     begun: dict[str, float] = {}
     if path.exists():
-        for record in _lines(path):
-            if BEGUN in record:
-                begun.setdefault(record["recipe"], record[BEGUN])
-            else:
-                results[record["input"]] = from_json(record)
+        try:
+            for record in _lines(path):
+                if BEGUN in record:
+                    begun.setdefault(record["recipe"], record[BEGUN])
+                else:
+                    results[record["input"]] = from_json(record)
+        except (AttributeError, KeyError, TypeError) as error:
+            raise _other_file(path) from error
     return Earlier(results, begun)
 
 
@@ -248,8 +262,12 @@ def _lines(path: Path) -> Iterator[dict[str, Any]]:
             if is_record:
                 yield record
             elif is_first and line.strip() and line.endswith(b"\n"):
-                raise WrongUse(f"{path} holds no records of a batch; use a new name")
+                raise _other_file(path)
             is_first = False
+
+
+def _other_file(path: Path) -> WrongUse:
+    return WrongUse(f"{path} holds no records of a batch; use a new name")
 
 
 def check(path: Path, is_continued: bool, force: bool) -> None:
@@ -258,6 +276,11 @@ def check(path: Path, is_continued: bool, force: bool) -> None:
         raise WrongUse(f"{path} is a folder; name a file in it, such as '{path / 'log.jsonl'}'")
     if not path.parent.is_dir():
         raise WrongUse(f"cannot write {path}: the folder {path.parent} does not exist")
+    if is_stream(path):
+        # Nothing can be read there: a pipe would be waited for, and a device may have no end.
+        if is_continued:
+            raise WrongUse(f"{path} is no file, so no batch can go on from it; name a file")
+        return
     if not path.exists():
         return
     read(path)

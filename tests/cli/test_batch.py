@@ -1,6 +1,8 @@
 """Options of a batch on the command line, what is printed, and summaries of records."""
 
 import json
+import os
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -99,6 +101,37 @@ def test_scheduler_that_is_not_there(cube):
     assert (result.exit_code, result.stdout) == (1, "")
     assert result.stderr.startswith("Error: the scheduler tcp://127.0.0.1:1 can't be reached: ")
     assert result.stderr.count("\n") == 1
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes")
+def test_records_go_into_a_pipe(cube):
+    os.mkfifo("pipe.jsonl")
+    arguments = ["run", script_file(TAUBIN), "-i", cube, "-o", "out.ply", "--json", "pipe.jsonl"]
+    unread = call(*arguments)
+    assert (unread.exit_code, unread.stderr) == (
+        1,
+        "Error: cannot write pipe.jsonl: nobody reads from this pipe\n",
+    )
+    refused = call(*arguments, "--resume")
+    assert refused.exit_code == 2
+    assert refused.stderr.startswith("Error: pipe.jsonl is no file, so no batch can go on from it")
+    with subprocess.Popen(["cat", "pipe.jsonl"], stdout=subprocess.PIPE) as reader:
+        # It waits for a writer, which opens the pipe only if there is a reader.
+        with open("pipe.jsonl", "w", encoding="utf-8"):
+            written = call(*arguments)
+        lines = reader.communicate()[0].splitlines()
+    assert written.exit_code == 0, written.stderr
+    assert json.loads(lines[1])["input"] == "cube.ply"
+
+
+@pytest.mark.parametrize(
+    "line", ['{"input": 1}', '{"begun": 1}', '{"input": "a", "status": "done", "outputs": [1]}']
+)
+def test_lines_of_other_programs_are_refused(line):
+    Path("other.jsonl").write_text(f"{line}\n")
+    result = call("summary", "other.jsonl")
+    assert result.exit_code == 2
+    assert result.stderr == "Error: other.jsonl holds no records of a batch; use a new name\n"
 
 
 def test_summary_of_other_files_is_refused(cube):

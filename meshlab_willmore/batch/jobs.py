@@ -54,10 +54,27 @@ def plan(
     jobs = [job for job in planned if shard is None or shard.has(job.name)]
     for job in jobs:
         for output, pattern in zip(job.outputs, outputs, strict=False):
-            if "{" in os.path.dirname(pattern.name) and _fixed_part(pattern.name).is_dir():
-                output.path.parent.mkdir(parents=True, exist_ok=True)
+            if "{" in os.path.dirname(pattern.name):
+                _make_folder(job, output.path, _fixed_part(pattern.name))
             check_output(output.path, force)
     return jobs
+
+
+def _make_folder(job: Job, path: Path, fixed: Path) -> None:
+    """Make the folder of an output in the folder `fixed`; raises `WrongUse` if it is elsewhere."""
+    if not fixed.exists():
+        raise WrongUse(f"cannot write {path}: the folder {fixed} does not exist")
+    # Without such a folder, as in {dir}/{name}_clean.ply, outputs are beside their inputs.
+    is_inside = (
+        fixed == Path() or Path(os.path.abspath(fixed)) in Path(os.path.abspath(path)).parents
+    )
+    if not is_inside:
+        raise WrongUse(
+            f"the result of {job.name} would be written to {path}, outside of {fixed}; name the "
+            "inputs with their whole paths, or start in a folder above them"
+        )
+    if fixed.is_dir():
+        path.parent.mkdir(parents=True, exist_ok=True)
 
 
 def _fixed_part(pattern: str) -> Path:
@@ -97,21 +114,38 @@ def _check_distinct(jobs: Iterable[Job], inputs: Iterable[Path]) -> None:
     An input may be replaced by its own result.
     """
     readers = {_identity(path): path for path in inputs}
-    writers: dict[str, Path] = {}
+    writers: dict[str, Job] = {}
     for job in jobs:
         source = job.inputs[0] if job.inputs else Path("the script's own mesh")
         for output in job.outputs:
             key = _identity(output.path)
-            if writers.get(key) == source:
+            other = writers.get(key)
+            if other is job:
                 raise WrongUse(f"{output.path} is named twice as an output; name it once")
-            if key in writers:
-                raise WrongUse(
-                    f"{writers[key]} and {source} would both be written to {output.path}; "
-                    "use {index} or {dir} in the name"
-                )
+            if other is not None:
+                raise _clash(other.inputs[0], source, output.path)
             if readers.get(key, source) != source:
                 raise WrongUse(f"the result of {source} would replace the input {output.path}")
-            writers[key] = source
+            writers[key] = job
+
+
+def _clash(first: Path, second: Path, output: Path) -> WrongUse:
+    """The error for two inputs with one output; it names placeholders that tell them apart."""
+    if first == second:
+        return WrongUse(
+            f"{first} is named twice as an input; name it once, or use {{index}} in the output's "
+            "name"
+        )
+    parts = {
+        "{name}": first.stem != second.stem,
+        "{ext}": first.suffix != second.suffix,
+        "{dir}": first.parent != second.parent,
+        "{index}": True,
+    }
+    useful = " or ".join(part for part, differs in parts.items() if differs)
+    return WrongUse(
+        f"{first} and {second} would both be written to {output}; use {useful} in the name"
+    )
 
 
 def _identity(path: Path) -> str:

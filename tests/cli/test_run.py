@@ -249,7 +249,23 @@ def no_step(monkeypatch):
         (["script.mlx", "-i", "cube.ply", "two.ply", "-o", "a.ply"], "2 inputs need one -o with a"),
         (
             ["script.mlx", "-i", "cube.ply", "two.ply", "-o", "{ext}.obj"],
-            "cube.ply and two.ply would both be written to ply.obj; use {index} or {dir}",
+            "cube.ply and two.ply would both be written to ply.obj; use {name} or {index} in",
+        ),
+        (
+            ["script.mlx", "-i", "cube.ply", "cube.obj", "-o", "{name}.off"],
+            "cube.ply and cube.obj would both be written to cube.off; use {ext} or {index} in",
+        ),
+        (
+            ["script.mlx", "-i", "cube.ply", "*.ply", "-o", "{name}.off"],
+            "cube.ply is named twice as an input; name it once, or use {index} in the output's",
+        ),
+        (
+            ["script.mlx", "-i", "*.ply", "-o", "no/{dir}/{name}.off"],
+            "cannot write no/cube.off: the folder no does not exist",
+        ),
+        (
+            ["script.mlx", "-i", "folder/../../*/cube.ply", "-o", "folder/{dir}/{name}.off"],
+            "the result of folder/../../",
         ),
         (
             ["script.mlx", "-i", "cube.ply", "-o", "a.ply", "./a.ply"],
@@ -266,6 +282,7 @@ def no_step(monkeypatch):
 def test_wrong_usage_is_one_line_before_anything_runs(monkeypatch, script, cube, arguments, line):
     no_step(monkeypatch)
     cube_file("two.ply")
+    cube_file("cube.obj")
     Path("empty.ply").touch()
     Path("folder").mkdir()
     before = listing()

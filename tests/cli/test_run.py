@@ -260,8 +260,8 @@ def no_step(monkeypatch):
             "cube.ply is named twice as an input; name it once, or use {index} in the output's",
         ),
         (
-            ["script.mlx", "-i", "*.ply", "-o", "no/{dir}/{name}.off"],
-            "cannot write no/cube.off: the folder no does not exist",
+            ["script.mlx", "-i", "folder/../cube.ply", "-o", "no/{dir}/{name}.off"],
+            "cannot write no/folder/../cube.off: the folder no does not exist",
         ),
         (
             ["script.mlx", "-i", "folder/../../*/cube.ply", "-o", "folder/{dir}/{name}.off"],

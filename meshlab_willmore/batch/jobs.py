@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from ..files import writable_folder
 from ..mesh_files.paths import Input, NoMatchError, Output, check_output
 from ..messages import WrongUse
 from .shards import Shard
@@ -74,7 +75,7 @@ def _make_folder(job: Job, path: Path, fixed: Path) -> None:
             "inputs with their whole paths, or start in a folder above them"
         )
     if fixed.is_dir():
-        path.parent.mkdir(parents=True, exist_ok=True)
+        writable_folder(path.parent)
 
 
 def _fixed_part(pattern: str) -> Path:

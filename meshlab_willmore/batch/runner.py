@@ -144,6 +144,9 @@ def run(
     """
     recipe = recipe_of(script)
     names = [inputs] if isinstance(inputs, (str, os.PathLike)) else list(inputs)
+    if not names:
+        # Without an input the command `run` does the script once, on no mesh.
+        return
     outputs = [] if output is None else [Output(os.fspath(output))]
     is_continued = resume or retry_failed
     jobs = plan(
@@ -173,7 +176,14 @@ def run(
 def recipe_of(script: Script) -> Recipe:
     """What a script or a function does to each mesh; raises `ScriptError` for a faulty script."""
     if callable(script):
-        return Recipe(cloudpickle.dumps(script), getattr(script, "__qualname__", repr(script)))
+        name = getattr(script, "__qualname__", repr(script))
+        try:
+            return Recipe(cloudpickle.dumps(script), name)
+        except (TypeError, pickle.PicklingError) as error:
+            raise WrongUse(
+                f"{name} can't be sent to workers: {one_line(error)}; what it uses of that kind "
+                "has to be made inside of it"
+            ) from error
     is_file = isinstance(script, (str, os.PathLike))
     source = os.fspath(script) if is_file else "filter script"  # type: ignore[arg-type]
     found = examined(script)

@@ -112,10 +112,10 @@ def do(work: Work, say: Say) -> Made:
             return Made((), (), steps, before, None)
         begin(SAVING)
         options = SaveOptions(force=work.force, begun=work.begun)
-        outputs = save_all(ms, work.job, options)
+        outputs = tuple(save_all(ms, work.job, options))
         begin(MEASURING)
         after = _measures(ms, work) if work.steps else None
-    return Made(tuple(outputs), tuple(returned), steps, before, after)
+    return Made(outputs, tuple(returned), steps, before, after)
 
 
 def _time_to_read(job: Job) -> float | None:

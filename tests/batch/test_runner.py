@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
@@ -138,6 +139,35 @@ def test_wrong_numbers_and_files_are_named(given, line):
     with pytest.raises(WrongUse) as caught:
         list(batch.run(script_file(FLIP), "a.ply", None, **given))
     assert line in str(caught.value)
+
+
+def test_failure_in_saving_is_named():
+    cube_file("a.ply")
+    (result,) = batch.run(lambda ms: ms.clear(), "a.ply", "{name}_out.ply")
+    assert (result.status, result.step) == ("error", "saving")
+    assert result.reason == "cannot write a_out.ply: the script leaves no mesh"
+
+
+def test_function_that_cannot_be_sent_is_named():
+    lock = threading.Lock()
+
+    def work(ms):
+        lock.acquire()
+
+    with pytest.raises(WrongUse, match=r"work can't be sent to workers: cannot pickle .*lock"):
+        next(batch.run(work, "a.ply"))
+
+
+def test_no_inputs_have_no_results():
+    assert list(batch.run(script_file(FLIP), [])) == []
+
+
+def test_folder_that_cannot_be_made_is_named():
+    cube_file("a.ply")
+    Path("out").mkdir()
+    Path("out/a").touch()
+    with pytest.raises(OSError, match=r"cannot write into out/a: it is a file"):
+        next(batch.run(script_file(FLIP), "a.ply", "out/{name}/{name}.ply"))
 
 
 def test_faulty_script_is_refused():

@@ -31,6 +31,12 @@ class Job(NamedTuple):
         return (*self.inputs, *outputs, *materials)
 
     @property
+    def is_in_place(self) -> bool:
+        """Whether a result replaces an input."""
+        inputs = set(map(_identity, self.inputs))
+        return any(_identity(output.path) in inputs for output in self.outputs)
+
+    @property
     def name(self) -> str:
         """What messages call it."""
         return ", ".join(map(str, self.inputs)) or "no input"

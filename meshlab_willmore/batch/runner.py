@@ -215,13 +215,17 @@ class Batch:
         self._begun = known.begun.get(self._hash, time.time())
         self.earlier: list[Result] = []
         self.jobs: list[Job] = []
+        # Taken before the inputs are read: one that changes meanwhile is another one.
+        self._stamps: list[tuple[int, int]] = []
         for job in jobs:
             outputs = [str(output.path) for output in job.outputs]
-            settled = known.settles(job.name, self._hash, records.stamp(job.inputs), outputs)
+            stamp = records.stamp(job.inputs)
+            settled = known.settles(job.name, self._hash, stamp, outputs)
             if settled is not None and (settled.is_done or not options.retry_failed):
                 self.earlier.append(settled)
             else:
                 self.jobs.append(job)
+                self._stamps.append(stamp)
         if options.resume:
             self._check_outputs()
             _remove_stale({output.path.parent for job in self.jobs for output in job.outputs})
@@ -268,7 +272,7 @@ class Batch:
                 tasks.append((key, self._task(job)))
             else:
                 ended = Ended(ERROR, reason=one_line(job.problem), phase=READING)
-                yield self._result(job, Attempted(ended, 1), [])
+                yield self._result(key, Attempted(ended, 1), [])
         if not tasks:
             return
         heard: dict[int, list[Any]] = defaultdict(list)
@@ -282,7 +286,7 @@ class Batch:
         for key, attempted in self._engine(len(tasks)).ended(tasks, listen):
             if attempted.ended.stops_all:
                 raise MachineError(attempted.ended.reason)
-            yield self._result(self.jobs[key], attempted, heard.pop(key, []))
+            yield self._result(key, attempted, heard.pop(key, []))
 
     def _engine(self, count: int) -> Pool[int] | Cluster[int]:
         options, recipe = self._options, self._recipe
@@ -315,10 +319,11 @@ class Batch:
         folders = tuple({str(place_of(output.path).parent) for output in job.outputs})
         return Task(_WORK, work, options.timeout, folders)
 
-    def _result(self, job: Job, attempted: Attempted, heard: Sequence[Any]) -> Result:
-        ended = attempted.ended
+    def _result(self, key: int, attempted: Attempted, heard: Sequence[Any]) -> Result:
+        job, ended = self.jobs[key], attempted.ended
         made = ended.value if ended.status == DONE else Made((), (), 0, None, None)
-        size, modified = records.stamp(job.inputs)
+        is_replaced = ended.status == DONE and job.is_in_place
+        size, modified = records.stamp(job.inputs) if is_replaced else self._stamps[key]
         status, reason = self._outcome(job, ended)
         return Result(
             job.name,

@@ -141,6 +141,24 @@ def test_wrong_numbers_and_files_are_named(given, line):
     assert line in str(caught.value)
 
 
+def test_input_that_changes_while_it_is_processed_is_done_again():
+    cube_file("a.ply")
+    whole = Path.cwd() / "a.ply"
+
+    def replaced(ms):
+        whole.write_bytes(whole.read_bytes() + b"\n")
+
+    given = {"log": "log.jsonl", "force": True}
+    for _ in range(2):
+        again = batch.run(replaced, "a.ply", "{name}_out.ply", **given, resume=True)
+        assert statuses(again) == {"a.ply": "done"}
+    # What replaces its own input is done.
+    first = batch.run(script_file(TAUBIN), "a.ply", "{dir}/a.ply", **given, resume=True)
+    assert statuses(first) == {"a.ply": "done"}
+    again = batch.run(script_file(TAUBIN), "a.ply", "{dir}/a.ply", **given, resume=True)
+    assert statuses(again) == {}
+
+
 def test_failure_in_saving_is_named():
     cube_file("a.ply")
     (result,) = batch.run(lambda ms: ms.clear(), "a.ply", "{name}_out.ply")

@@ -228,6 +228,7 @@ class Batch:
                 self._stamps.append(stamp)
         if options.resume:
             self._check_outputs()
+        if options.resume and not recipe.dry_run:
             _remove_stale({output.path.parent for job in self.jobs for output in job.outputs})
         self._pool: Pool[int] | None = None
 
@@ -254,7 +255,7 @@ class Batch:
 
         Raises `MachineError` where all others would fail in the same way.
         """
-        log = self._options.log
+        log = None if self._recipe.dry_run else self._options.log
         with ExitStack() as stack:
             own = None if log is None else stack.enter_context(closing(Records(log, self._hash)))
             for result in self._results():

@@ -150,7 +150,7 @@ def run_batch(
     by_name = {job.name: job for job in jobs}
     is_shown = is_listed or not sys.stdout.isatty()
     with ExitStack() as stack:
-        options = _options(given, force, recipe.dry_run, stack)
+        options = _options(given, force, stack)
         batch = stack.enter_context(closing(Batch(recipe, jobs, options)))
         for result in batch.earlier:
             summary.add(result)
@@ -179,7 +179,7 @@ def run_batch(
         raise click.ClickException(how_many_failed(summary.failed, summary.failed + summary.done))
 
 
-def _options(given: dict[str, Any], force: bool, dry_run: bool, stack: ExitStack) -> Any:
+def _options(given: dict[str, Any], force: bool, stack: ExitStack) -> Any:
     from ..batch.runner import BatchOptions
 
     client = None
@@ -194,7 +194,7 @@ def _options(given: dict[str, Any], force: bool, dry_run: bool, stack: ExitStack
         memory=_bytes(given["memory"]) if "memory" in given else None,
         retries=given.get("retries", 0),
         force=force,
-        log=None if dry_run else given.get("log"),
+        log=given.get("log"),
         resume=is_continued,
         retry_failed="retry_failed" in given,
         stop="stop" in given or is_debug(),
@@ -244,7 +244,8 @@ def _progress(batch: Batch, summary: Summary) -> Iterator[Callable[[], None]]:
         if count:
             left = (time.monotonic() - start) / count * (len(batch.jobs) - count)
             parts.append(f"about {duration(left)} left")
-        parts.append(", ".join(running) or "starting workers")
+        if count < len(batch.jobs):
+            parts.append(", ".join(running) or "starting workers")
         return "; ".join(parts)
 
     with progress.shown("batch", len(batch.jobs)) as status:

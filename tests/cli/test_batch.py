@@ -40,6 +40,10 @@ def test_records_resume_shards_and_summary():
     again = call(*arguments, "--json", "2.jsonl", "--shard", "2/2", "--resume")
     assert again.exit_code == second.exit_code
     assert again.stdout == ""
+    lines = Path("2.jsonl").read_text()
+    left = call(*arguments, "--json", "2.jsonl", "--shard", "2/2", "--retry-failed", "--dry-run")
+    assert (left.exit_code, left.stdout) == (0, "")
+    assert Path("2.jsonl").read_text() == lines
     refused = call(*arguments, "--json", "2.jsonl")
     assert refused.exit_code == 2
     assert refused.stderr.startswith("Error: out/four.off already exists")

@@ -15,6 +15,7 @@ from .mesh.validate import (
     check_mask,
     check_mesh,
     check_wedge_uv,
+    diagonal_of,
     in_input_units,
     to_unit_scale,
 )
@@ -242,7 +243,7 @@ def optimize_flips(
         "checkintersections": checkintersections,
         "maxflips": maxflips,
     }
-    plan = planned(preset, passes, given, _diagonal(vertices))
+    plan = planned(preset, passes, given, diagonal_of(vertices))
     locks = _Locks(
         options.FEATUREDEG.checked(featuredeg),
         None if selected_faces is None else check_mask(selected_faces, len(faces)),
@@ -284,14 +285,6 @@ def optimize_flips(
         worst_shape_after=quality_after.worst_shape,
         passes=tuple(done),
     )
-
-
-def _diagonal(vertices):
-    """Return the diagonal of the bounding box, infinite if it is no float."""
-    if not len(vertices):
-        return 0.0
-    with np.errstate(over="ignore"):
-        return float(math.hypot(*np.ptp(vertices, axis=0)))
 
 
 def _locked(mesh, locks, order):

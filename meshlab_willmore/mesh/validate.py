@@ -162,6 +162,14 @@ def to_unit_scale(vertices, faces):
     return scaled, exponent
 
 
+def diagonal_of(vertices):
+    """Return the diagonal of the bounding box of vertices (n, 3), infinite if it is no float."""
+    if not len(vertices):
+        return 0.0
+    with np.errstate(over="ignore", invalid="ignore"):
+        return float(math.hypot(*np.ptp(vertices, axis=0)))
+
+
 def in_input_units(value, exponent):
     """Return ``value * 2**exponent``: a measure at unit scale in the units of the input.
 

@@ -147,12 +147,15 @@ def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any]
     return returned, f"{result.flips} Willmore edge flips performed in {seconds:.2f} sec."
 
 
-def _length(limit: float | Percentage, vertices: np.ndarray) -> float | None:
-    """A limit in units of the coordinates; None for the whole diagonal, or more."""
-    diagonal = float(math.hypot(*np.ptp(vertices, axis=0)))
+def _length(limit: float | Percentage, vertices: np.ndarray) -> float:
+    """A limit in units of the coordinates; infinite for the whole diagonal, or more."""
+    from ..mesh.validate import diagonal_of
+
+    diagonal: float = diagonal_of(vertices)
     if isinstance(limit, Percentage):
         limit = limit.percent / FULL_DIAGONAL * diagonal
-    return limit if limit < diagonal else None
+    # A preset would take None for its own default.
+    return limit if limit < diagonal else math.inf
 
 
 _RETURNS = (

@@ -55,6 +55,21 @@ def test_a_deviation_is_a_percentage_or_a_length(limit, length):
     np.testing.assert_array_equal(faces, expected.faces)
 
 
+@pytest.mark.parametrize("limit", [PercentageValue(100), PureValue(2.0 * DIAGONAL)])
+@pytest.mark.parametrize("preset", ["faithful", "shape"])
+def test_the_whole_diagonal_is_no_limit_for_a_preset_either(preset, limit):
+    faces, returned, _ = flipped(preset=preset, maxdeviation=limit)
+    free = optimize_flips(*MESH, preset=preset, maxdeviation=np.inf)
+    np.testing.assert_array_equal(faces, free.faces)
+    assert returned["flips"] > optimize_flips(*MESH, preset=preset).flips
+
+
+def test_the_diagonal_of_the_largest_floats_is_infinite():
+    scale = 1.6e308 / np.abs(MESH[0]).max()
+    returned = set_of(MESH[0] * scale, MESH[1]).apply_filter(FLIP, preset="shape")
+    assert returned["flips"] == optimize_flips(MESH[0] * scale, MESH[1], preset="shape").flips
+
+
 @pytest.mark.parametrize("value", [0.1, 1, "1%", True])
 def test_a_plain_number_is_no_deviation_as_in_pymeshlab(value):
     ms = set_of(*MESH)

@@ -90,10 +90,10 @@ def optimize_flips(
         - "faithful": the true shape of the surface, and then good triangles. Flips lower "mean
           curvature", which finds creases and smooth parts back, with chains of two flips where the
           surface is folded; then "delaunay" without moving the surface by more than
-          `maxdeviation`, 0.03 % of the bounding box's diagonal by default. Until then `foldangle`
-          and `minshape` are 180 and 0, unless they are given. Where the surface is folded and there
-          would be more faces that cut others than before, all is done again with
-          `checkintersections`.
+          `maxdeviation`, 0.03 % of the bounding box's diagonal by default (infinity: no limit).
+          Until then `foldangle` and `minshape` are 180 and 0, unless they have other values than
+          their defaults. Where the surface is folded and there would be more faces that cut others
+          than before, all is done again with `checkintersections`.
         - "smooth": the lowest Willmore energy.
         - "shape": the best triangles within `maxdeviation` of the input, with the same default.
 
@@ -176,7 +176,8 @@ def optimize_flips(
         with the distance between the old and the new diagonal, and what it adds to a face is
         summed up (see `meshlab_willmore.guards.deviation`). Rounding may add 1e-12 of the largest
         coordinate. In `passes`, a limit that a pass has itself is counted from the beginning of
-        that pass, one for all passes from the input.
+        that pass, one for all passes from the input. The preset "faithful" counts it from the
+        beginning of its last pass.
     checkintersections : bool
         Refuse flips after which one of the two new faces intersects another face of the mesh:
         touches it without a common vertex, or has more in common with it than common vertices.

@@ -280,7 +280,8 @@ FOLDANGLE = Option(
     90.0,
     "Fold angle (deg)",
     "Refuse a flip if the faces at the new edge would be bent by more than this angle (0 is flat) "
-    "and by more than at the old edge. 180 allows folds.",
+    "and by more than at the old edge. 180 allows folds. Where this is 90, the preset 'faithful' "
+    "allows them until its last pass.",
     _degrees,
 )
 MINSHAPE = Option(
@@ -290,7 +291,7 @@ MINSHAPE = Option(
     "Least shape",
     "Refuse a flip if the worse of its two triangles would have a shape below this one and below "
     "the worse one before. The shape is 1 for an equilateral triangle and 0 for one without area. "
-    "0 allows slivers.",
+    "0 allows slivers. Where this is 0.05, the preset 'faithful' allows them until its last pass.",
     _share,
 )
 MAXDEVIATION = Option(
@@ -300,7 +301,8 @@ MAXDEVIATION = Option(
     "Largest deviation",
     "Refuse a flip if the surface could be farther from the input than this anywhere, in either "
     "direction. The whole diagonal of the bounding box, 100%, is no limit. The presets 'faithful' "
-    "and 'shape' have 0.03% by themselves.",
+    "and 'shape' have 0.03% by themselves; in 'faithful' this is the distance from the surface "
+    "before its last pass.",
     _length,
 )
 CHECKINTERSECTIONS = Option(

@@ -164,8 +164,8 @@ _RETURNS = (
         "gain",
         "float",
         "How much the energy fell, in its unit; with the presets of several passes, how much the "
-        "Willmore energy fell; for 'virtual willmore' the sum over the flips with "
-        "the greedy searches and 'variable depth', else the drop of the Willmore energy.",
+        "Willmore energy fell; for 'virtual willmore' the sum over the flips with the greedy "
+        "searches, else the drop of the Willmore energy.",
     ),
     ("willmore_before", "float", "Willmore energy before, over interior vertices, in radians."),
     ("willmore_after", "float", "Willmore energy after, over interior vertices, in radians."),

@@ -17,7 +17,7 @@ Examples:
 """
 
 
-@click.command("demo", short_help="Run the three experiments of the paper.", epilog=EXAMPLES)
+@click.command("demo", short_help="Flip the paper's models and a technical part.", epilog=EXAMPLES)
 @click.option(
     "--output",
     "-o",
@@ -29,7 +29,9 @@ Examples:
 )
 @debug_option
 def command(output: Path) -> None:
-    """Show the method on the paper's three models: a cube, a torus and a scanned face.
+    """Show the method on the paper's three models, a cube, a torus and a scanned face, and a part.
+
+    The technical part and the face are flipped as in the paper, and by the preset 'faithful'.
 
     PyMeshLab filters, the Willmore flips among them, process the meshes. A table of the results
     goes to the standard output, meshes (PLY) and pictures of before and after (PNG) into the

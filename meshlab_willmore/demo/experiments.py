@@ -159,11 +159,11 @@ def _run_face(recorder: Recorder, path: Path, keep_one_of: int) -> None:
     faithful.add_mesh(pymeshlab.Mesh(*surface_of(meshes)), "face")
     cameras = {"face": FACE_CAMERA, "face-closeup": CLOSEUP_CAMERA}
     paper = _run_flips(recorder, meshes, initial, cameras)
+    recorder.run_stage(meshes, "face", "Taubin smoothing", SMOOTHING)
+    recorder.save(meshes, "face-smoothed")
     other = recorder.run_stage(faithful, "face", "faithful", FAITHFUL), surface_of(faithful)
     recorder.save(faithful, "face-faithful")
     recorder.save_picture("face-presets", CLOSEUP_CAMERA, paper, other)
-    recorder.run_stage(meshes, "face", "Taubin smoothing", SMOOTHING)
-    recorder.save(meshes, "face-smoothed")
 
 
 def _warm_up(notify: Notify) -> None:

@@ -71,7 +71,8 @@ class Run(NamedTuple):
 def run_keeping_cuts(plan, mesh, exponent, left):
     """Do as `run_all`, but again with the guard against intersections if cut faces got more.
 
-    They are counted only if a pass has met folds: elsewhere such flips make none.
+    They are counted only if a pass has met folds: it takes long, and elsewhere such flips hardly
+    make any.
     """
     begin = copy_of(mesh)
     run = run_all(plan, mesh, exponent, left)

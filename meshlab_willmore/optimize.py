@@ -176,8 +176,8 @@ def optimize_flips(
         with the distance between the old and the new diagonal, and what it adds to a face is
         summed up (see `meshlab_willmore.guards.deviation`). Rounding may add 1e-12 of the largest
         coordinate. In `passes`, a limit that a pass has itself is counted from the beginning of
-        that pass, one for all passes from the input. The preset "faithful" counts it from the
-        beginning of its last pass.
+        that pass, and so is one for all passes in those after it; else that is counted from the
+        input. The preset "faithful" counts it from the beginning of its last pass.
     checkintersections : bool
         Refuse flips after which one of the two new faces intersects another face of the mesh:
         touches it without a common vertex, or has more in common with it than common vertices.

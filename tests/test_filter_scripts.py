@@ -9,6 +9,7 @@ import pytest
 from meshlab_willmore import script
 from meshlab_willmore.demo.models import scrambled, technical_part
 from meshlab_willmore.measure import measures, triangle_shapes
+from meshlab_willmore.options import PRESET
 from tests.meshset.conftest import FLIP, SAMPLES, set_of
 
 FOLDER = Path(__file__).parents[1] / "filter_scripts"
@@ -104,9 +105,8 @@ def test_flip_smooth_and_measure_a_bunny():
 def test_flip_the_slivers_of_a_cow():
     ms = loaded("cow.obj")
     before = ms.current_mesh().face_matrix()
-    feature = 30.0
     steps = run("flip_technical_part.mlx", ms)
-    assert steps[FLIP].given["featuredeg"] == feature
+    assert steps[FLIP].given["preset"] == PRESET.choices.index("faithful")
     assert steps[FLIP].returned["flips"] > 0
     assert ms.current_mesh().selected_face_number() == 0
     changed = (ms.current_mesh().face_matrix() != before).any(axis=1)

@@ -340,7 +340,8 @@ def _make_rounds(score, state, progress, parallel_for):
         flips, gain = progress.flips + done.flipped, progress.gain + done.gain
         progress = Progress(progress.scored, flips, gain, done.state)
         report(f"round {number}, {flips} flips, {len(edges)} edges left")
+        # It also brings the bounds of the deviation up to date.
+        dirty = rounds.list_dirty(state, done.flipped, parallel_for)
         if done.state == STOPPED:
             return progress
         refused = done.refused
-        dirty = rounds.list_dirty(state, done.flipped, parallel_for)

@@ -112,6 +112,19 @@ def test_no_search_takes_the_surface_farther(energy, search):
     assert flips[0] == 0 < flips[1] < flips[2]
 
 
+@pytest.mark.heavy
+@pytest.mark.parametrize("search", SEARCH.choices)
+@pytest.mark.parametrize("maxflips", [1, 3, 10])
+def test_the_bound_holds_where_the_number_of_flips_is_limited(search, maxflips):
+    for seed in range(4):
+        vertices, faces = meshes.bumpy_sphere(30, seed, bump=0.6)
+        result = optimize_flips(
+            vertices, faces, energy="mean curvature", search=search, maxflips=maxflips, sweeps=2
+        )
+        there, back = farthest(vertices, faces, result.faces)
+        assert 0.0 < max(there, back) <= result.deviation + 1e-12
+
+
 @pytest.mark.parametrize("exponent", [-300, 300])
 def test_limits_are_lengths_in_the_units_of_the_input(exponent):
     vertices, faces = meshes.bumpy_sphere(60, 1, bump=0.6)

@@ -92,6 +92,7 @@ def cuts(vertices, faces):
     return int(self_intersections(vertices, faces).sum())
 
 
+@pytest.mark.heavy
 def test_the_faithful_preset_never_leaves_more_cut_faces(monkeypatch):
     """On very bumpy spheres, faces come to cut others without the guard."""
     grew = 0

@@ -45,10 +45,15 @@ def _remember(ctx: click.Context, option: click.Parameter, value: Any) -> None:
 
 
 def _bytes(text: str) -> int:
+    from ..batch.runner import LEAST_MEMORY
+
     found = _SIZE.fullmatch(text.strip())
     if not found:
         raise WrongUse(f"--memory {text}: it must be a size such as 4G or 500M")
-    return int(float(found[1]) * _KIB ** _UNITS[found[2].upper()])
+    size = int(float(found[1]) * _KIB ** _UNITS[found[2].upper()])
+    if size < LEAST_MEMORY:
+        raise WrongUse(f"--memory {text}: a worker needs {LEAST_MEMORY // _KIB**2}M or more")
+    return size
 
 
 def _option(*names: str, **given: Any) -> Callable[..., Any]:

@@ -81,7 +81,7 @@ def test_limit_makes_a_batch_of_one_mesh(cube):
     [
         (["--resume"], "--resume needs --json FILE.jsonl"),
         (["--memory", "much"], "--memory much: it must be a size such as 4G or 500M"),
-        (["--memory", "1K"], "memory is 1024, but must be"),
+        (["--memory", "1K"], "--memory 1K: a worker needs 256M or more"),
         (["--shard", "auto"], "--shard auto: there is neither"),
         (["--workers", "0"], "Invalid value for '--workers'"),
         (["--json", "cube.ply"], "cube.ply holds no records of a batch; use a new name"),

@@ -63,13 +63,15 @@ class Task(NamedTuple):
     """A function to call in a worker, its argument, and how many seconds that may take.
 
     The function has the name ``module:function`` and is called with the argument and a function
-    that sends a message to the parent. In the folders it may leave drafts if it is killed.
+    that sends a message to the parent. In the folders it may leave drafts if it is killed. Only if
+    it `is_limited`, the worker's limit of memory is for it.
     """
 
     function: str
     argument: Any = None
     seconds: float | None = None
     folders: tuple[str, ...] = ()
+    is_limited: bool = True
 
 
 class Phase(NamedTuple):

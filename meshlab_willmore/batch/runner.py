@@ -73,6 +73,11 @@ class BatchOptions(NamedTuple):
     renewed_after: int = RENEWED_AFTER
 
 
+def _warm_up(steps: tuple[Step, ...]) -> Task:
+    """What compiles the kernels; for lack of memory, the compiler may hang."""
+    return Task(_WARM_UP, steps, is_limited=False)
+
+
 def run(
     script: Script,
     inputs: str | os.PathLike[str] | Iterable[str | os.PathLike[str]],
@@ -295,7 +300,7 @@ class Batch:
         settings = PoolSettings(
             retries=options.retries,
             renewed_after=options.renewed_after,
-            warm_up=None if recipe.dry_run else Task(_WARM_UP, steps),
+            warm_up=None if recipe.dry_run else _warm_up(steps),
             memory=options.memory,
         )
         if options.client is not None:

@@ -88,7 +88,7 @@ def _ended(task: Task, settings: WorkerSettings, answers: int) -> Ended:
         module, _, name = task.function.partition(":")
         function = getattr(importlib.import_module(module), name)
         _send(answers, BEGUN)
-        with memory.limited(settings.memory):
+        with memory.limited(settings.memory if task.is_limited else None):
             value = function(task.argument, lambda message: _send(answers, message))
         framed(value)
     except Exception as error:

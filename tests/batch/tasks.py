@@ -110,6 +110,13 @@ def make_a_file(_argument, _say):
     os.abort()
 
 
+def limit(_argument, _say):
+    """The limit of the address space."""
+    import resource
+
+    return resource.getrlimit(resource.RLIMIT_AS)[0]
+
+
 def give_slowly(argument, _say):
     """Return the argument, so late that a machine is lost meanwhile."""
     time.sleep(0.8)

@@ -108,6 +108,12 @@ def test_memory_is_limited():
     assert 0 < given.ended.memory < GIB
 
 
+@LINUX
+def test_a_warm_up_is_not_limited():
+    limited, free = seated(task("limit"), task("limit")._replace(is_limited=False), memory=GIB)
+    assert 0 < limited.ended.value < free.ended.value or free.ended.value == -1
+
+
 @pytest.mark.slow
 def test_output_of_a_task_is_no_answer():
     (printed,) = seated(task("print_noise", "answer"))

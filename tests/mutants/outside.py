@@ -202,7 +202,7 @@ COMMANDS = [
     Fault(
         "two outputs may have one name",
         "batch/jobs.py",
-        "            if key in writers:",
+        "            if other is not None:",
         "            if False:",
         "tests/cli/test_run.py",
     ),

@@ -11,6 +11,9 @@ from tests import meshes
 from tests.cli.conftest import call
 from tests.meshset.conftest import FLIP, script_of, set_of
 
+# With the JIT off, the guard against intersections alone takes minutes.
+pytestmark = pytest.mark.heavy
+
 MESH = meshes.bumpy_sphere(150, 2, bump=0.6)
 DIAGONAL = float(np.linalg.norm(np.ptp(MESH[0], axis=0)))
 

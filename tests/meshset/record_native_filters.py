@@ -26,6 +26,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 from xml.sax.saxutils import quoteattr
 
+import numpy as np
 import pymeshlab
 from pymeshlab import MeshSet
 
@@ -34,6 +35,8 @@ SAMPLES = Path(pymeshlab.__file__).parent / "tests" / "sample_meshes"
 TEXTURE = SAMPLES / "TextureDouble_A.png"
 SECONDS = 150
 PIPE_SIZE = 65536
+# Around the type of what a filter does not always return.
+RARE = "NotRequired"
 # No filter has a parameter of this name.
 MARK = "no such parameter"
 
@@ -231,10 +234,14 @@ def _parts(descriptor: int) -> Iterator[bytes]:
 
 
 class Applied(NamedTuple):
-    """A filter after it was applied: its step in the script, and how many layers it added."""
+    """A filter after it was applied.
+
+    Its step in the script, how many layers it added, and name and type of each value it returned.
+    """
 
     step: ET.Element
     layers: int
+    returns: list[list[str]]
 
 
 def apply(name: str, model: str, given: dict[str, Any]) -> Applied | None:
@@ -244,13 +251,22 @@ def apply(name: str, model: str, given: dict[str, Any]) -> Applied | None:
 
     def task() -> bytes:
         before = ms.mesh_number()
-        ms.apply_filter(name, **given)
+        returned = ms.apply_filter(name, **given)
         path = Path(f"{os.getpid()}.mlx")
         ms.save_filter_script(str(path))
-        return b"%d\n" % (ms.mesh_number() - before) + path.read_bytes()
+        returns = [[key, type_of(value)] for key, value in sorted(returned.items())]
+        facts = json.dumps([ms.mesh_number() - before, returns])
+        return facts.encode() + b"\n" + path.read_bytes()
 
-    layers, _, script = in_child(task).answer.partition(b"\n")
-    return Applied(ET.fromstring(script)[0], int(layers)) if script else None
+    facts, _, script = in_child(task).answer.partition(b"\n")
+    return Applied(ET.fromstring(script)[0], *json.loads(facts)) if script else None
+
+
+def type_of(value: object) -> str:
+    """The type of what a filter returned, as an annotation."""
+    if isinstance(value, np.ndarray):
+        return f"NDArray[np.{value.dtype}]"
+    return type(value).__name__
 
 
 def params_of(step: ET.Element) -> list[list[Any]]:
@@ -298,6 +314,16 @@ def required_of(applied: Applied, name: str, model: str) -> list[str]:
     return required
 
 
+def rarely_returned(name: str, usual: Applied) -> list[list[str]]:
+    """Name and type of values that a filter returns of other models only."""
+    if not usual.returns:
+        return []
+    others = filter(None, (apply(name, model, GIVEN.get(name, {})) for model in MODELS))
+    types = {key: kind for other in others for key, kind in other.returns}
+    usually = dict(usual.returns)
+    return [[key, f"{RARE}[{kind}]"] for key, kind in sorted(types.items()) if key not in usually]
+
+
 def needs_mesh(name: str) -> bool:
     """Whether the filter refuses an empty set, or crashes on it."""
 
@@ -330,6 +356,7 @@ def record(name: str, old: dict[str, Any]) -> dict[str, Any]:
             "makes_layers": applied.layers > 0 or any(t and t.layers > 0 for t in tries),
             "required": required_of(applied, name, model),
             "params": params_of(applied.step),
+            "returns": [*applied.returns, *rarely_returned(name, applied)],
         }
     return old
 
@@ -393,6 +420,8 @@ def differences(name: str, entry: dict[str, Any]) -> Iterator[str]:
         yield "name"
     if params_of(applied.step) != entry["params"]:
         yield "params"
+    if applied.returns != [one for one in entry["returns"] if not one[1].startswith(RARE)]:
+        yield "returns"
     if applied.layers > 0 and not entry["makes_layers"]:
         yield "makes_layers"
 

@@ -1,15 +1,20 @@
 """Edge flips that lower an energy, on plain arrays: the package's main function."""
 
+from __future__ import annotations
+
 import functools
 import math
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from typing import NamedTuple, ParamSpec, TypeVar
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import guards, options
 from .execution import SEARCHES, STOPPED_REASON, run_all, run_keeping_cuts
 from .measure import quality_of, willmore_energy_of
 from .mesh.build import build, changed_edges, in_old_slots, local_order
+from .mesh.halfedge import Mesh
 from .mesh.validate import (
     check_edges,
     check_mask,
@@ -19,6 +24,7 @@ from .mesh.validate import (
     in_input_units,
     to_unit_scale,
 )
+from .options import EnergyName, PassOptions, PresetName, SearchName, VirtualPoint
 from .passes import check_combination, planned
 from .presets import PRESETS
 from .results import FlipResult
@@ -29,16 +35,20 @@ class _Locks(NamedTuple):
     """Checked arguments that lock edges."""
 
     featuredeg: float
-    selected_faces: np.ndarray | None
-    locked_edges: np.ndarray | None
-    wedge_uv: np.ndarray | None
+    selected_faces: NDArray[np.bool_] | None
+    locked_edges: NDArray[np.integer] | None
+    wedge_uv: NDArray[np.float64] | None
 
 
-def _checked_combination(function):
+_P = ParamSpec("_P")
+_R = TypeVar("_R")
+
+
+def _checked_combination(function: Callable[_P, _R]) -> Callable[_P, _R]:
     """Let a function refuse options that its preset or passes decide, if they are given at all."""
 
     @functools.wraps(function)
-    def checked(*arrays, **given):
+    def checked(*arrays: _P.args, **given: _P.kwargs) -> _R:
         check_combination(given)
         return function(*arrays, **given)
 
@@ -47,29 +57,29 @@ def _checked_combination(function):
 
 @_checked_combination
 def optimize_flips(
-    vertices,
-    faces,
+    vertices: ArrayLike,
+    faces: ArrayLike,
     *,
-    preset=options.PRESET.default,
-    passes=None,
-    energy=options.ENERGY.default,
-    search=options.SEARCH.default,
-    depth=options.DEPTH.default,
-    breadth=options.BREADTH.default,
-    sweeps=options.SWEEPS.default,
-    seed=options.SEED.default,
-    virtualpoint=options.VIRTUALPOINT.default,
-    monotone=options.MONOTONE.default,
-    foldangle=options.FOLDANGLE.default,
-    minshape=options.MINSHAPE.default,
-    maxdeviation=None,
-    checkintersections=options.CHECKINTERSECTIONS.default,
-    featuredeg=options.FEATUREDEG.default,
-    selected_faces=None,
-    locked_edges=None,
-    wedge_uv=None,
-    maxflips=None,
-):
+    preset: PresetName = options.PRESET.default,
+    passes: Sequence[PassOptions] | None = None,
+    energy: EnergyName = options.ENERGY.default,
+    search: SearchName = options.SEARCH.default,
+    depth: int = options.DEPTH.default,
+    breadth: int = options.BREADTH.default,
+    sweeps: int = options.SWEEPS.default,
+    seed: int = options.SEED.default,
+    virtualpoint: VirtualPoint = options.VIRTUALPOINT.default,
+    monotone: bool = options.MONOTONE.default,
+    foldangle: float = options.FOLDANGLE.default,
+    minshape: float = options.MINSHAPE.default,
+    maxdeviation: float | None = None,
+    checkintersections: bool = options.CHECKINTERSECTIONS.default,
+    featuredeg: float = options.FEATUREDEG.default,
+    selected_faces: ArrayLike | None = None,
+    locked_edges: ArrayLike | None = None,
+    wedge_uv: ArrayLike | None = None,
+    maxflips: int | None = None,
+) -> FlipResult:
     """Flip edges of a triangle mesh until no allowed flip lowers the energy any more.
 
     The vertices do not move. Never flipped are boundary and non-manifold edges, edges between
@@ -288,7 +298,7 @@ def optimize_flips(
     )
 
 
-def _locked(mesh, locks, order):
+def _locked(mesh: Mesh, locks: _Locks, order: NDArray[np.integer]) -> Mesh:
     """Lock edges of `mesh`, whose faces are those of the input in `order`, in place.
 
     Returns

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import numbers
 from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple, TypedDict
 
 import numpy as np
 
@@ -33,6 +33,39 @@ SEARCHES = {
     "thorough": "chains from several starts, for a result that hardly depends on how the mesh was "
     "triangulated",
 }
+
+# The names, for type checkers, which don't read tables.
+PresetName = Literal["paper", "faithful", "smooth", "shape"]
+EnergyName = Literal[
+    "virtual willmore",
+    "willmore",
+    "uniform virtual willmore",
+    "area",
+    "mean curvature",
+    "gaussian curvature",
+    "delaunay",
+]
+SearchName = Literal["parallel greedy", "greedy", "variable depth", "annealing", "thorough"]
+VirtualPoint = Literal["midpoint", "closest"] | float
+
+
+class PassOptions(TypedDict, total=False):
+    """The options that a pass in a list of passes can have, as `optimize_flips` explains them."""
+
+    energy: EnergyName
+    search: SearchName
+    depth: int
+    breadth: int
+    sweeps: int
+    seed: int
+    virtualpoint: VirtualPoint
+    monotone: bool
+    foldangle: float
+    minshape: float
+    maxdeviation: float | None
+    checkintersections: bool
+    maxflips: int | None
+    atfolds: bool
 
 
 class Length(float):

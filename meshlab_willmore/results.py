@@ -3,6 +3,7 @@
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 
 class PassResult(NamedTuple):
@@ -81,14 +82,14 @@ class FlipResult(NamedTuple):
         What each pass did, in order.
     """
 
-    faces: np.ndarray
+    faces: NDArray[np.int32]
     flips: int
     gain: float
     willmore_before: float
     willmore_after: float
     converged: bool
     reason: str
-    corners: np.ndarray
+    corners: NDArray[np.int32]
     deviation: float
     absolute_mean_curvature_before: float
     absolute_mean_curvature_after: float

@@ -3,6 +3,7 @@
 import inspect
 import re
 from pathlib import Path
+from typing import get_args, get_type_hints
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from meshlab_willmore import optimize_flips
 from meshlab_willmore.energy.table import ENERGIES
 from meshlab_willmore.options import (
     ALLOWLOSS,
+    BY_NAME,
     ENERGY,
     FOLDANGLE,
     MAXDEVIATION,
@@ -18,12 +20,19 @@ from meshlab_willmore.options import (
     MINSHAPE,
     MONOTONE,
     OPTIONS,
+    PRESET,
     SEARCH,
     SEARCHES,
     SELECTION,
     VIRTUALPOINT,
+    EnergyName,
+    PassOptions,
+    PresetName,
+    SearchName,
+    VirtualPoint,
     described,
 )
+from meshlab_willmore.passes import PASS_OPTIONS
 from meshlab_willmore.search.stencil import RING
 
 README = Path(__file__).parents[1] / "README.md"
@@ -115,6 +124,24 @@ def test_each_default_passes_its_own_check():
     for option in OPTIONS:
         if option not in (SELECTION, MAXFLIPS):
             assert option.checked(option.default) == option.default
+
+
+def test_type_checkers_know_all_names():
+    names = {ENERGY: EnergyName, PRESET: PresetName, SEARCH: SearchName}
+    for option, literal in names.items():
+        assert get_args(literal) == option.choices
+    literal, number = get_args(VirtualPoint)
+    assert (get_args(literal), number) == (VIRTUALPOINT.choices, float)
+
+
+def test_type_checkers_know_the_options_of_a_pass_and_of_the_function():
+    of_pass, of_function = get_type_hints(PassOptions), get_type_hints(optimize_flips)
+    assert sorted(of_pass) == sorted(PASS_OPTIONS)
+    assert {name: of_function[name] for name in of_pass if name != "atfolds"} == {
+        name: kind for name, kind in of_pass.items() if name != "atfolds"
+    }
+    for name, kind in of_pass.items():
+        assert kind is BY_NAME[name].type or kind not in (bool, int), name
 
 
 def test_a_chain_has_room_for_the_greatest_breadth():

@@ -1,8 +1,12 @@
 """Checks at the edge of the public functions: what passes is safe for the kernels."""
 
+from __future__ import annotations
+
 import math
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 # Half-edges are numbered 3 f + c in int32.
 MOST_FACES = (2**31 - 1) // 3
@@ -20,7 +24,9 @@ class RepeatedVertexError(ValueError):
     """A face has a vertex twice."""
 
 
-def check_mesh(vertices, faces):
+def check_mesh(
+    vertices: ArrayLike, faces: ArrayLike
+) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     """Return vertices and faces as the kernels take them, or raise.
 
     Parameters
@@ -43,11 +49,11 @@ def check_mesh(vertices, faces):
     ValueError
         Wrong shape, or names the first vertex or face that is wrong.
     """
-    vertices = _check_vertices(np.asarray(vertices))
-    return vertices, _check_faces(np.asarray(faces), len(vertices))
+    points = _check_vertices(np.asarray(vertices))
+    return points, _check_faces(np.asarray(faces), len(points))
 
 
-def _check_vertices(vertices):
+def _check_vertices(vertices: NDArray[Any]) -> NDArray[np.float64]:
     if vertices.dtype.kind not in "fiu":
         raise TypeError(f"vertices must be real numbers, not {vertices.dtype}")
     vertices = _check_rows(vertices, "vertices", 3)
@@ -64,7 +70,7 @@ def _check_vertices(vertices):
     return converted
 
 
-def _check_rows(array, name, width):
+def _check_rows(array: NDArray[Any], name: str, width: int) -> NDArray[Any]:
     """Check that an array has rows of `width` numbers; an empty list has none and is fine."""
     if array.shape == (0,):
         return array.reshape(0, width)
@@ -73,7 +79,7 @@ def _check_rows(array, name, width):
     return array
 
 
-def _check_indices(indices, name, width):
+def _check_indices(indices: NDArray[Any], name: str, width: int) -> NDArray[Any]:
     """Check that an array has rows of `width` integers; the type of an empty array says nothing."""
     if not indices.size:
         indices = np.empty(indices.shape, np.int64)
@@ -82,7 +88,7 @@ def _check_indices(indices, name, width):
     return _check_rows(indices, name, width)
 
 
-def _check_faces(faces, vertex_count):
+def _check_faces(faces: NDArray[Any], vertex_count: int) -> NDArray[np.int32]:
     faces = _check_indices(faces, "faces", 3)
     if len(faces) > MOST_FACES:
         raise ValueError(f"{len(faces)} faces are too many, at most {MOST_FACES} work")
@@ -99,40 +105,43 @@ def _check_faces(faces, vertex_count):
     return np.ascontiguousarray(faces, np.int32)
 
 
-def check_edges(edges):
+def check_edges(edges: ArrayLike) -> NDArray[np.int64]:
     """Return vertex pairs (e, 2) as int64, or raise as `check_mesh` does."""
     return _check_indices(np.asarray(edges), "locked_edges", 2).astype(np.int64, order="C")
 
 
-def check_mask(mask, count):
+def check_mask(mask: ArrayLike, count: int) -> NDArray[np.bool_]:
     """Return the boolean mask (count,) as an array, or raise TypeError or ValueError."""
-    mask = np.asarray(mask)
-    if not mask.size:
-        mask = np.empty(mask.shape, np.bool_)
-    if mask.dtype != np.bool_:
-        raise TypeError(f"selected_faces must be a mask of bool, not {mask.dtype}")
-    if mask.shape != (count,):
-        raise ValueError(f"selected_faces must have the shape ({count},), not {mask.shape}")
-    return mask
+    array = np.asarray(mask)
+    if not array.size:
+        array = np.empty(array.shape, np.bool_)
+    if array.dtype != np.bool_:
+        raise TypeError(f"selected_faces must be a mask of bool, not {array.dtype}")
+    if array.shape != (count,):
+        raise ValueError(f"selected_faces must have the shape ({count},), not {array.shape}")
+    return array
 
 
-def check_wedge_uv(uv, faces):
+def check_wedge_uv(uv: ArrayLike, faces: int) -> NDArray[np.float64]:
     """Return texture coordinates (faces, 3, 2 c), finite or not, as float64, or raise.
 
     `faces` is the number of faces.
     """
-    uv = np.asarray(uv)
-    if not uv.size and not faces:
+    array = np.asarray(uv)
+    if not array.size and not faces:
         return np.empty((0, 3, 2))
-    if uv.dtype.kind not in "fiu":
-        raise TypeError(f"wedge_uv must be real numbers, not {uv.dtype}")
-    if uv.ndim != 3 or uv.shape[:2] != (faces, 3) or uv.shape[2] == 0 or uv.shape[2] % 2:
-        raise ValueError(f"wedge_uv must have the shape ({faces}, 3, 2), not {uv.shape}")
+    if array.dtype.kind not in "fiu":
+        raise TypeError(f"wedge_uv must be real numbers, not {array.dtype}")
+    shape = array.shape
+    if array.ndim != 3 or shape[:2] != (faces, 3) or shape[2] == 0 or shape[2] % 2:
+        raise ValueError(f"wedge_uv must have the shape ({faces}, 3, 2), not {shape}")
     with np.errstate(over="ignore", invalid="ignore"):
-        return np.ascontiguousarray(uv, np.float64)
+        return np.ascontiguousarray(array, np.float64)
 
 
-def to_unit_scale(vertices, faces):
+def to_unit_scale(
+    vertices: NDArray[np.float64], faces: NDArray[np.integer]
+) -> tuple[NDArray[np.float64], int]:
     """Return coordinates scaled by a power of two, so that products of lengths stay in range.
 
     Parameters
@@ -162,7 +171,7 @@ def to_unit_scale(vertices, faces):
     return scaled, exponent
 
 
-def diagonal_of(vertices):
+def diagonal_of(vertices: NDArray[np.floating]) -> float:
     """Return the diagonal of the bounding box of vertices (n, 3), infinite if it is no float."""
     if not len(vertices):
         return 0.0
@@ -170,7 +179,7 @@ def diagonal_of(vertices):
         return float(math.hypot(*np.ptp(vertices, axis=0)))
 
 
-def in_input_units(value, exponent):
+def in_input_units(value: float, exponent: int) -> float:
     """Return ``value * 2**exponent``: a measure at unit scale in the units of the input.
 
     For a length, `exponent` is that of `to_unit_scale`, for an area twice that. What is too large

@@ -131,7 +131,7 @@ class ScriptError(ValueError):
 
     def __init__(self, source: str, faults: Iterable[Fault]) -> None:
         self.source = source
-        self.faults = tuple(faults)
+        self.faults: tuple[Fault, ...] = tuple(faults)
         super().__init__("\n".join(f"{source}: {fault}" for fault in self.faults))
 
 

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import math
 import numbers
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, NamedTuple, TypedDict
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .energy.table import ENERGIES, VIRTUAL_POINTS
 from .presets import FULL_DIAGONAL, PRESETS
@@ -66,6 +67,30 @@ class PassOptions(TypedDict, total=False):
     checkintersections: bool
     maxflips: int | None
     atfolds: bool
+
+
+class FlipOptions(TypedDict, total=False):
+    """The options of `meshlab_willmore.optimize_flips`, which explains them."""
+
+    preset: PresetName
+    passes: Sequence[PassOptions] | None
+    energy: EnergyName
+    search: SearchName
+    depth: int
+    breadth: int
+    sweeps: int
+    seed: int
+    virtualpoint: VirtualPoint
+    monotone: bool
+    foldangle: float
+    minshape: float
+    maxdeviation: float | None
+    checkintersections: bool
+    featuredeg: float
+    selected_faces: ArrayLike | None
+    locked_edges: ArrayLike | None
+    wedge_uv: ArrayLike | None
+    maxflips: int | None
 
 
 class Length(float):

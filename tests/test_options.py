@@ -26,6 +26,7 @@ from meshlab_willmore.options import (
     SELECTION,
     VIRTUALPOINT,
     EnergyName,
+    FlipOptions,
     PassOptions,
     PresetName,
     SearchName,
@@ -136,6 +137,10 @@ def test_type_checkers_know_all_names():
 
 def test_type_checkers_know_the_options_of_a_pass_and_of_the_function():
     of_pass, of_function = get_type_hints(PassOptions), get_type_hints(optimize_flips)
+    arrays = {"vertices", "faces", "return"}
+    assert get_type_hints(FlipOptions) == {
+        name: kind for name, kind in of_function.items() if name not in arrays
+    }
     assert sorted(of_pass) == sorted(PASS_OPTIONS)
     assert {name: of_function[name] for name in of_pass if name != "atfolds"} == {
         name: kind for name, kind in of_pass.items() if name != "atfolds"

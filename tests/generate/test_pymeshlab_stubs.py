@@ -3,6 +3,7 @@
 import ast
 import json
 import os
+import re
 import subprocess
 import sys
 import textwrap
@@ -51,6 +52,13 @@ GOOD = """
         mesh.vertex_matrix().astype(np.float32)
     ms.add_mesh(pymeshlab.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]), "triangle")
 """
+
+
+def guide():
+    """The code of the guide for editors."""
+    text = (ROOT / "docs" / "guide" / "editors.md").read_text()
+    return "\n".join(re.findall(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL))
+
 
 # Each line has one mistake, and a word that a checker must say of it.
 BAD = """
@@ -160,8 +168,9 @@ def test_mypy_finds_each_mistake(script):
 
 @pytest.mark.slow
 @needs("pyright", "types")
-def test_pyright_accepts_what_is_right(script):
-    run = script(GOOD, *PYRIGHT)
+@pytest.mark.parametrize("text", [GOOD, guide()], ids=["script", "guide"])
+def test_pyright_accepts_what_is_right(script, text):
+    run = script(text, *PYRIGHT)
     assert pyright_errors(run) == {}
     assert json.loads(run.stdout)["summary"]["filesAnalyzed"] == 1
 

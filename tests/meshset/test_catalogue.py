@@ -112,7 +112,7 @@ def test_choices_are_those_that_pymeshlab_names():
 @pytest.mark.slow
 def test_all_names_are_known_and_a_sample_does_what_its_entry_says(step):
     sample = sorted(NATIVES)[::step]
-    command = [sys.executable, "-m", "tests.meshset.record_native_filters", "--check", *sample]
+    command = [sys.executable, "-m", "generate.native_filters", "--check", *sample]
     root = Path(__file__).parents[2]
     run = subprocess.run(command, cwd=root, capture_output=True, text=True, check=True)
     assert run.stdout == f"{len(NATIVES)} checked\n"

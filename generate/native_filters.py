@@ -1,4 +1,4 @@
-"""Writes `native_filters.json`: what MeshLab calls its filters and their parameters.
+"""Writes `native_filters.json`: how MeshLab names its filters and parameters, what they return.
 
 PyMeshLab doesn't tell these names, but a filter that was applied stands in the set's script with
 all its parameters. So each filter is applied to a small model and the script is read. Some filters
@@ -6,7 +6,7 @@ crash on such models or for want of a graphics card: each runs in a child proces
 can't be run keep the entry that they have in the file, which was read from MeshLab's sources and is
 marked by an empty model.
 
-    python -m tests.meshset.record_native_filters
+    python -m generate.native_filters
 
 With ``--check`` nothing is written, and what differs from the file is printed.
 """
@@ -30,7 +30,7 @@ import numpy as np
 import pymeshlab
 from pymeshlab import MeshSet
 
-FILE = Path(__file__).parents[2] / "meshlab_willmore" / "meshset" / "native_filters.json"
+FILE = Path(__file__).parents[1] / "meshlab_willmore" / "meshset" / "native_filters.json"
 SAMPLES = Path(pymeshlab.__file__).parent / "tests" / "sample_meshes"
 TEXTURE = SAMPLES / "TextureDouble_A.png"
 SECONDS = 150
@@ -246,7 +246,6 @@ class Applied(NamedTuple):
 
 def apply(name: str, model: str, given: dict[str, Any]) -> Applied | None:
     """Apply a filter in a child process; None if that fails."""
-
     ms = model_set(model)
 
     def task() -> bytes:
@@ -283,7 +282,6 @@ def params_of(step: ET.Element) -> list[list[Any]]:
 
 def flags_of(name: str, model: str, given: dict[str, Any]) -> dict[str, bool | None]:
     """The value of each parameter that is a flag, by keyword; None for the others."""
-
     ms = model_set(model)
 
     def task() -> bytes:
@@ -370,7 +368,6 @@ def names_are_known(meshlab_name: str, params: list[list[Any]]) -> bool:
     It warns of every parameter of a script that the filter does not have, before it runs: the
     first warning must be that of the mark, which comes last.
     """
-
     ms = model_set("face_scalars")
 
     def task() -> bytes:

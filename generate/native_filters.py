@@ -129,10 +129,6 @@ def quads() -> MeshSet:
     return ms
 
 
-def empty() -> MeshSet:
-    return MeshSet()
-
-
 MODELS: dict[str, Callable[[], MeshSet]] = {
     model.__name__: model
     for model in (
@@ -148,9 +144,8 @@ MODELS: dict[str, Callable[[], MeshSet]] = {
         raster,
         project,
         quads,
-        empty,
     )
-}
+} | {"empty": MeshSet}
 
 
 @functools.cache
@@ -234,10 +229,7 @@ def _parts(descriptor: int) -> Iterator[bytes]:
 
 
 class Applied(NamedTuple):
-    """A filter after it was applied.
-
-    Its step in the script, how many layers it added, and name and type of each value it returned.
-    """
+    """A filter after it was applied: its step, the layers it added, names and types it returned."""
 
     step: ET.Element
     layers: int

@@ -29,6 +29,9 @@ from meshlab_willmore.meshset.filters import BY_NAME
 
 FOLDER = Path(__file__).parents[1] / "pymeshlab-stubs"
 _RECORDED = json.loads(Path(catalogue.__file__).with_name("native_filters.json").read_text())
+# What PyMeshLab's extension module has, and the order of it: classes first.
+_PUBLIC = {name: v for name, v in vars(pymeshlab.pmeshlab).items() if not name.startswith("_")}
+_NAMES = sorted(_PUBLIC, key=lambda name: (not isinstance(_PUBLIC[name], type), name))
 _HEADER = (
     f'"""PyMeshLab {catalogue.recorded_version()} with the filters of meshlab_willmore.\n\n'
     'Written by `python -m generate.pymeshlab_stubs`.\n"""\n'
@@ -92,11 +95,9 @@ _ORDER = ("PercentageValue", "PureValue", "Color", "BoundingBox", "Image", "Mesh
 
 
 def _extension_lines() -> Iterator[str]:
-    module = pymeshlab.pmeshlab
     yield _IMPORTS
-    exceptions = [n for n, v in vars(module).items() if isinstance(v, type) and _is_error(v)]
-    for name in (*sorted(exceptions), *_ORDER):
-        yield from class_lines(getattr(module, name))
+    for name in (*filter(_is_error, _NAMES), *_ORDER):
+        yield from class_lines(_PUBLIC[name])
         yield ""
     filters = catalogue.everything()
     for filter_ in filters:
@@ -111,13 +112,14 @@ def _extension_lines() -> Iterator[str]:
     for filter_ in filters:
         yield from _filter_lines(filter_)
     yield ""
-    for name, value in sorted(vars(module).items()):
-        if not isinstance(value, type) and not name.startswith("_"):
-            yield from function_lines(signatures(value), "")
+    for name in _NAMES:
+        if not isinstance(_PUBLIC[name], type):
+            yield from function_lines(signatures(_PUBLIC[name]), "")
 
 
-def _is_error(cls: type) -> bool:
-    return issubclass(cls, Exception)
+def _is_error(name: str) -> bool:
+    value = _PUBLIC[name]
+    return isinstance(value, type) and issubclass(value, Exception)
 
 
 def _apply_lines(filters: Iterable[FilterInfo]) -> Iterator[str]:
@@ -262,18 +264,6 @@ def _result_lines(filter_: FilterInfo) -> Iterator[str]:
 
 # --- PyMeshLab's own Python ----------------------------------------------------------------------
 
-_NAMES = (
-    *sorted(
-        name
-        for name, value in vars(pymeshlab.pmeshlab).items()
-        if isinstance(value, type) and not name.startswith("_")
-    ),
-    *sorted(
-        name
-        for name, value in vars(pymeshlab.pmeshlab).items()
-        if not isinstance(value, type) and not name.startswith("_")
-    ),
-)
 _REEXPORTED = "".join(f"from .pmeshlab import {name} as {name}\n" for name in _NAMES)
 _PACKAGE = f"""
 from collections.abc import Callable

@@ -3,10 +3,13 @@
 Source: "Mesh optimisation based on Willmore energy", section 2.
 """
 
+from __future__ import annotations
+
 import math
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from .energy import area, mean_curvature
 from .energy.angles import NO_ANGLES, add
@@ -58,7 +61,7 @@ class Measures(NamedTuple):
     willmore_energy: float
 
 
-def willmore_energy(vertices, faces):
+def willmore_energy(vertices: ArrayLike, faces: ArrayLike) -> float:
     """Return the Willmore energy of a mesh: the sum of W(v) over its interior vertices.
 
     Parameters
@@ -79,7 +82,7 @@ def willmore_energy(vertices, faces):
     return willmore_energy_of(_unit_mesh(vertices, faces)[0])
 
 
-def vertex_willmore_energy(vertices, faces):
+def vertex_willmore_energy(vertices: ArrayLike, faces: ArrayLike) -> NDArray[np.float64]:
     """Return W(v) = (sum of the intersection angles at v) - 2 pi for each vertex.
 
     It is 0 exactly where v is convex and lies with its neighbours on a sphere or plane, and
@@ -104,7 +107,9 @@ def vertex_willmore_energy(vertices, faces):
     return _vertex_energy(_unit_mesh(vertices, faces)[0])
 
 
-def intersection_angles(vertices, faces):
+def intersection_angles(
+    vertices: ArrayLike, faces: ArrayLike
+) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
     """Return the angles between the circumcircles of neighbouring faces.
 
     Parameters
@@ -131,7 +136,7 @@ def intersection_angles(vertices, faces):
     return edges, np.nan_to_num(_lower_angles(mesh)[interior])
 
 
-def measures(vertices, faces):
+def measures(vertices: ArrayLike, faces: ArrayLike) -> Measures:
     """Return all the totals of the paper's section 2.
 
     Curvatures are summed over interior edges (those with exactly two faces of the same orientation)
@@ -162,7 +167,7 @@ def measures(vertices, faces):
     )
 
 
-def triangle_shapes(vertices, faces):
+def triangle_shapes(vertices: ArrayLike, faces: ArrayLike) -> NDArray[np.float64]:
     """Return the shape 4 sqrt(3) area / (sum of squared sides) of each face.
 
     Parameters
@@ -183,7 +188,7 @@ def triangle_shapes(vertices, faces):
     return _shapes(_unit_mesh(vertices, faces)[0])
 
 
-def self_intersections(vertices, faces):
+def self_intersections(vertices: ArrayLike, faces: ArrayLike) -> NDArray[np.bool_]:
     """Return which faces intersect another one.
 
     Two faces intersect if they share a point that their common vertices do not account for:
@@ -213,7 +218,7 @@ def self_intersections(vertices, faces):
     return intersecting_faces_of(_unit_mesh(vertices, faces)[0])
 
 
-def intersecting_faces_of(mesh):
+def intersecting_faces_of(mesh: Mesh) -> NDArray[np.bool_]:
     """Return which faces of a half-edge mesh intersect others, as `self_intersections` does."""
     bvh = build_bvh(mesh)
     marked = np.zeros(len(mesh.origin) // 3, np.bool_)
@@ -222,7 +227,7 @@ def intersecting_faces_of(mesh):
     return marked
 
 
-def willmore_energy_of(mesh):
+def willmore_energy_of(mesh: Mesh) -> float:
     """Return the Willmore energy of a half-edge mesh, as `willmore_energy` does."""
     chunks = -(-len(mesh.origin) // HALF_EDGES_PER_SUM)
     task = _Parts(mesh, interior_vertices(mesh), np.zeros(chunks), np.zeros(chunks))
@@ -250,7 +255,7 @@ class Quality(NamedTuple):
     worst_shape: float
 
 
-def quality_of(mesh):
+def quality_of(mesh: Mesh) -> Quality:
     """Return the Quality of a half-edge mesh, in its own units."""
     faces = len(mesh.origin) // 3
     if not faces:
@@ -288,11 +293,11 @@ def _add_quality(task, start, stop):
     task.bends[chunk], task.shapes[chunk], task.worst[chunk] = bends, shapes, worst
 
 
-def _unit_mesh(vertices, faces):
+def _unit_mesh(vertices: ArrayLike, faces: ArrayLike) -> tuple[Mesh, int]:
     """Return the half-edge mesh of checked arrays at unit scale, and the exponent of that scale."""
-    vertices, faces = check_mesh(vertices, faces)
-    scaled, exponent = to_unit_scale(vertices, faces)
-    return build(scaled, faces), exponent
+    points, triangles = check_mesh(vertices, faces)
+    scaled, exponent = to_unit_scale(points, triangles)
+    return build(scaled, triangles), exponent
 
 
 class _Parts(NamedTuple):
@@ -340,7 +345,7 @@ class _Angles(NamedTuple):
     beta: np.ndarray
 
 
-def _lower_angles(mesh):
+def _lower_angles(mesh: Mesh) -> NDArray[np.float64]:
     """Return the intersection angle at each lower twin (3 m,); what else is there means nothing."""
     task = _Angles(mesh, np.empty(len(mesh.origin)))
     with thread_pool() as parallel_for:
@@ -355,7 +360,7 @@ def _find_angles(task, start, stop):
             task.beta[at(h)] = edge_angle(task.mesh, h)
 
 
-def _vertex_energy(mesh):
+def _vertex_energy(mesh: Mesh) -> NDArray[np.float64]:
     sums = _sums_at_ends(mesh, _lower_angles(mesh))
     defined = interior_vertices(mesh) & np.isfinite(sums)
     return np.where(defined, sums - FULL_TURN, 0.0)

@@ -1,6 +1,6 @@
 """The options of the flips: name, default, limits, choices and help text of each.
 
-`meshlab_willmore.optimize_flips`, the filter, the command line and the table in README have them
+`meshlab_willmore.optimize_flips`, the filter, the command line and the site's reference have them
 from here. Nothing in this module needs Numba or PyMeshLab.
 """
 

@@ -2,14 +2,12 @@
 
 import inspect
 import re
-from pathlib import Path
 from typing import get_args, get_type_hints
 
 import numpy as np
 import pytest
 
 from meshlab_willmore import optimize_flips
-from meshlab_willmore.energy.table import ENERGIES
 from meshlab_willmore.options import (
     ALLOWLOSS,
     BY_NAME,
@@ -31,12 +29,10 @@ from meshlab_willmore.options import (
     PresetName,
     SearchName,
     VirtualPoint,
-    described,
 )
 from meshlab_willmore.passes import PASS_OPTIONS
 from meshlab_willmore.search.stencil import RING
 
-README = Path(__file__).parents[1] / "README.md"
 OF_FILTER = {SELECTION.name, ALLOWLOSS.name}
 CORE = {option.name: option for option in OPTIONS if option.name not in OF_FILTER}
 
@@ -174,34 +170,3 @@ def test_the_docstring_of_the_function_names_options_and_choices_that_there_are(
     named = set(re.findall(r'"([a-z ]+)"', parameters))
     choices = {choice for option in OPTIONS for choice in option.choices}
     assert named <= choices
-
-
-def test_readme_has_the_help_text_of_each_option():
-    text = README.read_text(encoding="utf-8")
-    table = text.partition("| parameter | default | meaning |\n|---|---|---|\n")[2]
-    rows = table.partition("\n\n")[0].splitlines()
-    # It may leave an energy out.
-    named = {name: row.help for name, row in ENERGIES.items() if f"`'{name}'`:" in table}
-    for option, row in zip(OPTIONS, rows, strict=True):
-        meaning = option.help
-        if option is ENERGY:
-            meaning = meaning.replace(described_energies(ENERGIES), described(named))
-        default = "on where faces are selected" if option is SELECTION else shown(option)
-        assert row == f"| `{option.name}` | {default} | {as_code(meaning)} |"
-
-
-def described_energies(energies):
-    return described({name: row.help for name, row in energies.items()})
-
-
-def shown(option):
-    if option is MAXDEVIATION:
-        return "100%"
-    if option.type in (int, float):
-        return f"{option.default:g}"
-    return f"`{option.default!r}`"
-
-
-def as_code(text):
-    """Names in quotes as code."""
-    return re.sub(r"'([a-z]+( [a-z]+)*)'", r"`'\1'`", text)

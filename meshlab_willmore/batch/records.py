@@ -59,7 +59,7 @@ class Result(NamedTuple):
     outputs : tuple of Saved
         The files that were written.
     step : str
-        Where it failed: "reading", "step 2 (meshing_...)", "saving"; empty if it did not.
+        Where it failed: "reading", "saving", or the step's number and name; empty if it did not.
     reason : str
         Why, in one line.
     seconds : float

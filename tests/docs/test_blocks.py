@@ -1,0 +1,50 @@
+"""The code on the pages runs as it is printed."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from .pages import COMMAND, NOT_RUN, README, blocks, name_of, pages
+
+pytestmark = [pytest.mark.heavy, pytest.mark.slow]
+PAGES = [page for page in pages() if any(block.runs for block in blocks(page))]
+
+
+def run_python(text, names, where):
+    exec(compile(text, where, "exec"), names)
+
+
+def run_shell(text, path):
+    done = subprocess.run(
+        ["bash", "-euo", "pipefail", "-c", text],
+        env={**os.environ, "PATH": path},
+        text=True,
+        capture_output=True,
+    )
+    assert done.returncode == 0, f"{text}\n{done.stdout}{done.stderr}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name_of)
+def test_the_code_of_a_page_runs(page, checkout, monkeypatch):
+    """All blocks in order, in one folder, Python in one process. README activates by itself."""
+    monkeypatch.chdir(checkout)
+    path = os.environ["PATH"]
+    if page != README:
+        path = f"{Path(sys.executable).parent}{os.pathsep}{path}"
+    names = {"__name__": "__main__"}
+    for block in blocks(page):
+        if block.language == "python" and block.runs:
+            run_python(block.text, names, name_of(page))
+        elif block.runs:
+            run_shell(block.text, path)
+
+
+@pytest.mark.parametrize("page", pages(), ids=name_of)
+def test_a_block_that_does_not_run_says_why(page):
+    for block in blocks(page):
+        assert not block.note or block.note.startswith((NOT_RUN, COMMAND)), block
+        if block.note.startswith(NOT_RUN):
+            assert len(block.note) > len(NOT_RUN) + 5, block

@@ -1,0 +1,66 @@
+"""README is short, its links work anywhere, and CITATION.cff says the same."""
+
+import re
+
+import pytest
+
+from meshlab_willmore import __version__
+
+from .pages import DOCS, README, ROOT, blocks
+
+MOST_CHARACTERS = 8000
+TEXT = README.read_text(encoding="utf-8")
+PYPROJECT = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+ADDRESSES = dict(re.findall(r'^(\w+) = "(https://[^"]+)"$', PYPROJECT, re.MULTILINE))
+LINKS = re.findall(r"\]\(([^)]+)\)", TEXT)
+OTHERS = {"https://github.com/cnr-isti-vclab/PyMeshLab"}
+
+
+def slugs(page):
+    """The anchors of a page's headings."""
+    headings = re.findall(r"^#+ (.*)$", page.read_text(encoding="utf-8"), re.MULTILINE)
+    return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def test_readme_is_short():
+    assert len(TEXT) <= MOST_CHARACTERS
+
+
+def test_readme_links_to_many_pages():
+    assert len(LINKS) > 8
+    assert not re.search(r"<(a|img) |^\[[^\]]+\]: ", TEXT, re.MULTILINE)
+
+
+@pytest.mark.parametrize("link", LINKS)
+def test_a_link_of_readme_is_absolute_and_leads_to_a_page(link):
+    if link in OTHERS:
+        return
+    home = ADDRESSES["Documentation"]
+    assert link.startswith(home)
+    path, _, anchor = link.removeprefix(home).partition("#")
+    if path.startswith("_images/"):
+        # Sphinx puts pictures of all folders into one.
+        assert (DOCS / "pictures" / path.removeprefix("_images/")).exists()
+        return
+    page = (DOCS / (path or "index.html")).with_suffix(".md")
+    assert page.exists()
+    assert not anchor or anchor in slugs(page)
+
+
+@pytest.mark.parametrize("name", ["demo", "test"])
+def test_readme_has_the_command(name):
+    (block,) = (block for block in blocks(README) if block.note == f"command: {name}")
+    assert block.text.count("\n") == 1
+    assert f"pip install '.[{name}]'" in block.text
+
+
+def test_readme_names_scripts_that_there_are():
+    for name in re.findall(r"filter_scripts/\S+", TEXT):
+        assert (ROOT / name).exists()
+
+
+def test_the_citation_has_version_and_addresses():
+    lines = (ROOT / "CITATION.cff").read_text(encoding="utf-8").splitlines()
+    assert f"version: {__version__}" in lines
+    assert f"url: {ADDRESSES['Documentation']}" in lines
+    assert f"repository-code: {ADDRESSES['Repository']}" in lines

@@ -64,10 +64,10 @@ def texts(values):
     ]
 
 
-def measured(options):
-    """Run all tools on all models, and say what is going on."""
+def measured(options, tools=None):
+    """Run all tools, or the given ones, on all models, and say what is going on."""
     results = Results()
-    tools = list(all_tools(SEARCHES if options.searches else QUICK, options.limit))
+    tools = list(tools or all_tools(SEARCHES if options.searches else QUICK, options.limit))
     for start in originals.starts(options.models, options.vertices, options.seed):
         faces = start.faces
         results.add("(decimated)", start.name, measure(start, faces), np.nan)
@@ -87,7 +87,7 @@ def measure(start, faces):
 
 
 def main(arguments):
-    results = measured(_options(arguments))
+    results = measured(options_of(arguments))
     models = list(next(iter(results.by_tool.values())))
     print(f"\nMeans over {len(models)} models\n")
     print_table(HEAD, results.means())
@@ -96,7 +96,7 @@ def main(arguments):
         print_table(["tool", *models], results.single(column))
 
 
-def _options(arguments):
+def options_of(arguments):
     parser = argparse.ArgumentParser(prog="python -m studies.faithful")
     parser.add_argument("--models", nargs="+", default=(), help="only these; default: all")
     parser.add_argument("--searches", action="store_true", help="all energies with all searches")

@@ -16,14 +16,15 @@ FENCE = re.compile(
     r"```(?P<language>[^\n]*)\n(?P<text>.*?)^ *```$",
     re.MULTILINE | re.DOTALL,
 )
-LANGUAGES = ("python", "sh")
+LANGUAGES = ("python", "sh", "text")
 # What a comment above a block of code may say.
 NOT_RUN = "not run: "
 COMMAND = "command: "
+PRINTED = "printed by the block above"
 
 
 class Block(NamedTuple):
-    """A block of code: its language, its text, and the comment above it."""
+    """A block of code, or what one prints: its language, its text, and the comment above it."""
 
     language: str
     text: str
@@ -32,7 +33,7 @@ class Block(NamedTuple):
     @property
     def runs(self):
         """Whether it runs as it is; of the others, the comment says why not."""
-        return not self.note.startswith((NOT_RUN, COMMAND))
+        return self.language != "text" and not self.note.startswith((NOT_RUN, COMMAND))
 
 
 def pages():
@@ -50,7 +51,7 @@ def name_of(page):
 
 
 def blocks(page):
-    """The blocks of Python and of the shell on a page, in order, with those that it includes."""
+    """The blocks of Python, of the shell and of text on a page, with those that it includes."""
     found = []
     for fence in FENCE.finditer(page.read_text(encoding="utf-8")):
         language, text = fence["language"].strip(), fence["text"]

@@ -7,6 +7,7 @@ import pytest
 from meshlab_willmore import __version__
 
 from .pages import DOCS, README, ROOT, blocks
+from .tables import table_with
 
 MOST_CHARACTERS = 8000
 TEXT = README.read_text(encoding="utf-8")
@@ -64,3 +65,18 @@ def test_the_citation_has_version_and_addresses():
     assert f"version: {__version__}" in lines
     assert f"url: {ADDRESSES['Documentation']}" in lines
     assert f"repository-code: {ADDRESSES['Repository']}" in lines
+
+
+def test_readme_has_the_figures_of_the_study():
+    """Normal error, mean shape and cut faces, as in docs/presets.md."""
+    study = {row[0]: row for row in table_with(DOCS / "presets.md", "tool", "normal error")}
+    rows = table_with(README, "you want", "`preset`")
+    assert len(rows) == 6
+    for want, preset, normals, shape, cuts in rows:
+        if preset:
+            name = re.search(r"`'(\w+)'`", preset)[1]
+            row = study[f"**{name}**"]
+        else:
+            row = study["(scrambled)" if "scrambled" in want else "MeshLab curvature, mean"]
+        found = [float(row[1]), float(row[3]), float(row[5])]
+        assert [normals, shape, cuts] == [f"{found[0]:.2f}°", f"{found[1]:.3f}", f"{found[2]:.1f}"]

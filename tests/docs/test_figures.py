@@ -1,0 +1,127 @@
+"""Figures that the pages quote are what the package computes today."""
+
+import re
+import shlex
+
+import pytest
+from click.testing import CliRunner
+
+from meshlab_willmore import optimize_flips
+from meshlab_willmore.cli import main
+from meshlab_willmore.demo.experiments import run_demo
+from meshlab_willmore.report.stages import significant
+
+from .pages import DOCS, blocks
+from .tables import table_with
+
+studies = pytest.importorskip("studies")
+pytestmark = [pytest.mark.nightly, pytest.mark.heavy, pytest.mark.timeout(3600)]
+WILLMORE, CHAINS = {"energy": "willmore"}, {"energy": "willmore", "search": "variable depth"}
+# What the settings in the cells of docs/settings.md are.
+SETTINGS = {
+    "(default)": [{}],
+    "`virtualpoint=0.05`": [{"virtualpoint": 0.05}],
+    "`energy='willmore'`": [WILLMORE],
+    "`energy='uniform virtual willmore'`": [{"energy": "uniform virtual willmore"}],
+    "`energy='delaunay'` or `'area'`": [{"energy": "area"}, {"energy": "delaunay"}],
+    "`energy='willmore', search='variable depth'`": [CHAINS],
+    "and `depth=3`": [{**CHAINS, "depth": 3}],
+    "`energy='willmore', search='thorough'`": [{**WILLMORE, "search": "thorough"}],
+    "`energy='mean curvature'`": [{"energy": "mean curvature"}],
+}
+PAGE = DOCS / "settings.md"
+GUARDED = {"`featuredeg=30` with any of these", "`checkintersections=True` with any of these"}
+
+
+@pytest.fixture(scope="module")
+def demo(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("demo") / "willmore-demo"
+    return folder, run_demo(folder, lambda line: None)
+
+
+def test_table_of_the_method(demo):
+    model, rows = "", []
+    for stage in demo[1].stages:
+        cells = [stage.name, str(stage.faces), "" if stage.flips is None else str(stage.flips)]
+        numbers = map(significant, (stage.willmore, stage.area, stage.mean_curvature))
+        if (stage.model, stage.name) != ("scan", "as scanned"):
+            rows.append([stage.model if stage.model != model else "", *cells, *numbers])
+            model = stage.model
+    assert [row[:-1] for row in table_with(DOCS / "method.md", "model", "stage")] == rows
+
+
+def test_table_of_the_comparison(demo, monkeypatch):
+    command, shown = blocks(DOCS / "guide" / "compare.md")
+    monkeypatch.chdir(demo[0].parent)
+    done = CliRunner().invoke(main, shlex.split(command.text)[1:])
+    assert done.exit_code == 0, done.output
+    lines = [without_seconds(line) for line in done.output.splitlines()]
+    for line in shown.text.splitlines():
+        assert without_seconds(line) in lines
+
+
+def without_seconds(line):
+    """A line of the table of a comparison but for its last number, and spaces."""
+    return re.sub(r"\s+", " ", re.sub(r" +\d+\.\d\d$", "", line)).strip(" -")
+
+
+@pytest.fixture(scope="module")
+def surfaces():
+    from studies.settings import surfaces
+
+    return [(vertices, faces) for _, vertices, faces in surfaces()]
+
+
+@pytest.mark.parametrize("cell", SETTINGS)
+def test_row_of_the_settings(cell, surfaces):
+    (row,) = (row for row in table_with(PAGE, "you want", "settings") if row[1] == cell)
+    for shown, (vertices, faces) in zip(row[2:6], surfaces, strict=True):
+        found = sorted(
+            optimize_flips(vertices, faces, **options).willmore_after for options in SETTINGS[cell]
+        )
+        assert_shown(shown, found)
+
+
+def test_no_row_of_the_settings_is_left_out():
+    rows = table_with(PAGE, "you want", "settings")
+    assert {row[1] for row in rows} == {"", *SETTINGS, *GUARDED}
+
+
+def test_energies_that_annealing_reaches(surfaces):
+    text = PAGE.read_text(encoding="utf-8")
+    shown = re.search(r"it reaches W ([\d., ]+) and (\d+) in", text)
+    found = [
+        optimize_flips(*surface, **WILLMORE, search="annealing").willmore_after
+        for surface in surfaces
+    ]
+    for cell, value in zip([*shown[1].split(", "), shown[2]], found, strict=True):
+        assert_shown(cell, [value])
+
+
+def test_scrambled_starts():
+    from studies.settings import starts
+
+    rows = list(starts())
+    page = table_with(PAGE, "", "jittered torus, W")
+    for number, row in enumerate(page):
+        for shown, found in zip(row[1:], (rows[number], rows[number + len(page)]), strict=True):
+            _, least, _, most = map(float, found[2:])
+            assert_shown(shown.removesuffix(", all"), sorted({least, most}))
+
+
+def assert_shown(shown, found):
+    """A cell shows a value, or the least and the most of several, in its digits."""
+    cells = shown.split(" to ")
+    digits = len(cells[0].partition(".")[2])
+    texts = sorted({f"{value:.{digits}f}" for value in (found[0], found[-1])}, key=float)
+    assert texts == cells
+
+
+def test_presets_in_the_study():
+    from studies import faithful, tools
+
+    results = faithful.measured(faithful.options_of([]), list(tools.presets()))
+    page = table_with(DOCS / "presets.md", "tool", "normal error")
+    shown = {row[0]: row[1:-1] for row in page}
+    for row in results.means():
+        assert shown[row[0]] == row[1:-1]

@@ -23,10 +23,11 @@ def demo_files(tmp_path_factory):
 
 @pytest.fixture
 def checkout(demo_files, tmp_path):
-    """A checkout with the environment of this Python in it, and the demo's meshes."""
+    """A checkout with the environment of this Python in it, the demo's meshes, and a scan."""
     folder = tmp_path / "checkout"
     shutil.copytree(ROOT / "filter_scripts", folder / "filter_scripts")
     shutil.copytree(demo_files, folder / "willmore-demo")
+    shutil.copy(demo_files / "face-before.ply", folder / "scan.ply")
     activate = folder / ".venv" / "bin" / "activate"
     activate.parent.mkdir(parents=True)
     activate.write_text(f'PATH="{Path(sys.executable).parent}:$PATH"\n', encoding="utf-8")

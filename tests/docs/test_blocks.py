@@ -1,5 +1,7 @@
 """The code on the pages runs as it is printed."""
 
+import ast
+import importlib.util
 import os
 import re
 import subprocess
@@ -12,6 +14,22 @@ from .pages import COMMAND, NOT_RUN, PRINTED, README, blocks, name_of, pages
 
 pytestmark = [pytest.mark.heavy, pytest.mark.slow]
 PAGES = [page for page in pages() if any(block.runs for block in blocks(page))]
+
+
+IN_CI = os.environ.get("CI") == "true"
+
+
+def missing(page):
+    """The packages that the Python on a page imports, and that are not installed."""
+    found = set()
+    for block in blocks(page):
+        if block.language == "python" and block.runs:
+            for node in ast.walk(ast.parse(block.text)):
+                if isinstance(node, ast.Import):
+                    found |= {one.name.partition(".")[0] for one in node.names}
+                elif isinstance(node, ast.ImportFrom):
+                    found.add(node.module.partition(".")[0])
+    return sorted(name for name in found if importlib.util.find_spec(name) is None)
 
 
 def run_python(text, names, where):
@@ -38,6 +56,8 @@ def without_numbers(text):
 @pytest.mark.parametrize("page", PAGES, ids=name_of)
 def test_the_code_of_a_page_runs(page, checkout, monkeypatch):
     """All blocks in order, in one folder, Python in one process. README activates by itself."""
+    if not IN_CI and missing(page):
+        pytest.skip(f"needs {', '.join(missing(page))}")
     monkeypatch.chdir(checkout)
     path = os.environ["PATH"]
     if page != README:

@@ -17,9 +17,11 @@ FENCE = re.compile(
     re.MULTILINE | re.DOTALL,
 )
 LANGUAGES = ("python", "sh", "text")
-# What a comment above a block of code may say.
+# What a comment above a block of code may say. `.ci/run` runs commands, and tests of their own run
+# examples by name.
 NOT_RUN = "not run: "
 COMMAND = "command: "
+EXAMPLE = "example: "
 PRINTED = "printed by the block above"
 
 
@@ -33,7 +35,7 @@ class Block(NamedTuple):
     @property
     def runs(self):
         """Whether it runs as it is; of the others, the comment says why not."""
-        return self.language != "text" and not self.note.startswith((NOT_RUN, COMMAND))
+        return self.language != "text" and not self.note.startswith((NOT_RUN, COMMAND, EXAMPLE))
 
 
 def pages():

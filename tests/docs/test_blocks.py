@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from .pages import COMMAND, NOT_RUN, PRINTED, README, blocks, name_of, pages
+from .pages import COMMAND, EXAMPLE, NOT_RUN, PRINTED, README, blocks, name_of, pages
 
 pytestmark = [pytest.mark.heavy, pytest.mark.slow]
 PAGES = [page for page in pages() if any(block.runs for block in blocks(page))]
@@ -75,6 +75,6 @@ def test_the_code_of_a_page_runs(page, checkout, monkeypatch):
 @pytest.mark.parametrize("page", pages(), ids=name_of)
 def test_a_block_that_does_not_run_says_why(page):
     for block in blocks(page):
-        assert not block.note or block.note.startswith((NOT_RUN, COMMAND, PRINTED)), block
+        assert not block.note or block.note.startswith((NOT_RUN, COMMAND, EXAMPLE, PRINTED)), block
         if block.note.startswith(NOT_RUN):
             assert len(block.note) > len(NOT_RUN) + 5, block

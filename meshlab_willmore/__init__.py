@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from ._version import __version__
 
 if TYPE_CHECKING:
-    from . import batch, script
+    from . import batch, report, script
     from .measure import (
         Measures,
         intersection_angles,
@@ -34,6 +34,7 @@ _HOMES = {
     "measures": "measure",
     "optimize_flips": "optimize",
     "register": "meshset.register",
+    "report": "",
     "batch": "",
     "script": "",
     "unregister": "meshset.register",
@@ -51,6 +52,7 @@ __all__ = [
     "measures",
     "optimize_flips",
     "register",
+    "report",
     "script",
     "unregister",
     "vertex_willmore_energy",

@@ -1,0 +1,128 @@
+"""What the page shows of one mesh: energies, angles and shapes, piece by piece and in total."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..measure import (
+    Measures,
+    measures,
+    self_intersections,
+    triangle_shapes,
+    vertex_willmore_energy,
+)
+from ..mesh.build import build
+from ..mesh.normals import vertex_normals
+from ..mesh.validate import check_mesh
+
+Array = NDArray[np.float64]
+Faces = NDArray[np.int32]
+
+
+class Examined(NamedTuple):
+    """A mesh of n vertices and m faces, and what was measured of it.
+
+    Attributes
+    ----------
+    vertices : (n, 3) float64
+    faces : (m, 3) int32
+    energy : (n,) float64
+        W of each vertex, as `meshlab_willmore.vertex_willmore_energy`.
+    normals : (n, 3) float64
+    dihedral : (m, 3) float64
+        The dihedral angle in degrees at the side of each face that begins at the corner; 0 is flat,
+        NaN on the boundary and where more than two faces meet.
+    angles : (m, 3) float64
+        The angle in degrees at each corner.
+    shapes : (m,) float64
+        As `meshlab_willmore.measure.triangle_shapes`.
+    valences : (n,) int64
+        How many edges end at each vertex.
+    cuts : int
+        How many faces cut others.
+    totals : Measures
+    """
+
+    vertices: Array
+    faces: Faces
+    energy: Array
+    normals: Array
+    dihedral: Array
+    angles: Array
+    shapes: Array
+    valences: NDArray[np.int64]
+    cuts: int
+    totals: Measures
+
+
+def examined(vertices: Any, faces: Any) -> Examined:
+    """Measure a mesh.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As `meshlab_willmore.mesh.validate.check_mesh`.
+    """
+    vertices, faces = check_mesh(vertices, faces)
+    scaled = _centred(vertices)
+    corners = scaled[faces]
+    return Examined(
+        vertices,
+        faces,
+        vertex_willmore_energy(vertices, faces),
+        vertex_normals(scaled, faces, np.zeros_like(vertices)),
+        _dihedral_angles(scaled, faces, corners),
+        _angles(corners),
+        triangle_shapes(vertices, faces),
+        _valences(faces, len(vertices)),
+        int(np.count_nonzero(self_intersections(vertices, faces))),
+        measures(vertices, faces),
+    )
+
+
+def _centred(vertices: Array) -> Array:
+    """The vertices at a scale at which products neither overflow nor vanish."""
+    if not len(vertices):
+        return vertices
+    largest = np.abs(vertices).max()
+    unit = vertices / largest if largest > 0.0 else vertices
+    middle: Array = (unit.min(axis=0) + unit.max(axis=0)) / 2.0
+    extent = np.ptp(unit, axis=0).max()
+    return (unit - middle) / extent if extent > 0.0 else unit - middle
+
+
+def _dihedral_angles(vertices: Array, faces: Faces, corners: Array) -> Array:
+    normals = _unit(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
+    twin = build(vertices, faces).twin
+    angles = np.full(len(twin), np.nan)
+    inner = np.flatnonzero(twin >= 0)
+    angles[inner] = _between(normals[inner // 3], normals[twin[inner] // 3])
+    return angles.reshape(-1, 3)
+
+
+def _angles(corners: Array) -> Array:
+    ahead, back = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
+    return _between(_unit(ahead.reshape(-1, 3)), _unit(back.reshape(-1, 3))).reshape(-1, 3)
+
+
+def _between(left: Array, right: Array) -> Array:
+    """The angles in degrees between unit vectors, accurate for small ones too."""
+    halves = np.arctan2(np.linalg.norm(left - right, axis=1), np.linalg.norm(left + right, axis=1))
+    degrees: Array = np.degrees(2.0 * halves)
+    # A side or a face without a direction makes no angle.
+    degrees[~(left.any(axis=1) & right.any(axis=1))] = np.nan
+    return degrees
+
+
+def _unit(rows: Array) -> Array:
+    lengths = np.linalg.norm(rows, axis=1, keepdims=True)
+    return np.divide(rows, lengths, out=np.zeros_like(rows), where=lengths > 0.0)
+
+
+def _valences(faces: Faces, count: int) -> NDArray[np.int64]:
+    ends = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
+    edges = np.unique(ends.astype(np.int64) @ np.array([count, 1]))
+    return np.bincount(np.concatenate([edges // count, edges % count]), minlength=count)

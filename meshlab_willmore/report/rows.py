@@ -1,0 +1,193 @@
+"""The numbers of the page: measures before and after, with what changed."""
+
+from __future__ import annotations
+
+import math
+from html import escape
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..results import FlipResult
+from .examine import Examined
+
+WORST_SHARE = 0.01
+PERCENT = 100.0
+# Digits of a number, and from where on numbers have an exponent.
+DIGITS = 5
+LARGE, SMALL = 1e9, 1e-4
+MINUS, DASH = "\N{MINUS SIGN}", "\N{EN DASH}"
+
+
+class Row(NamedTuple):
+    """A measure before and after.
+
+    Attributes
+    ----------
+    name, help : str
+        Its name, and what it is.
+    before, after : float or None
+        None where there is none.
+    unit : str
+        Written behind the numbers.
+    better : int
+        -1 if lower is better, 1 if higher is, 0 if neither.
+    note : str
+        What to say in place of the change.
+    """
+
+    name: str
+    help: str
+    before: float | None
+    after: float | None
+    unit: str = ""
+    better: int = 0
+    note: str = ""
+
+
+def rows(before: Examined, after: Examined, flips: int | None) -> list[Row]:
+    """Return all measures of two meshes, of which the second one has so many new edges."""
+    one, two = before.totals, after.totals
+    found = [
+        Row("Vertices", "", len(before.vertices), len(after.vertices)),
+        Row("Faces", "", len(before.faces), len(after.faces)),
+    ]
+    if flips is not None:
+        edges = int(after.valences.sum()) // 2
+        share = f"{PERCENT * flips / max(edges, 1):.3g} % of {written(edges)}"
+        what = "Edges that the mesh before does not have."
+        found.append(Row("Flipped edges", what, None, flips, note=share))
+        found.append(
+            Row(
+                "Normal change",
+                "Mean angle between the normals of the vertices before and after.",
+                None,
+                normal_change(before, after),
+                "°",
+            )
+        )
+    return [
+        *found,
+        Row(
+            "Willmore energy W",
+            "Sum over the vertices; 0 on spheres and planes.",
+            one.willmore_energy,
+            two.willmore_energy,
+            better=-1,
+        ),
+        Row("Area", "In squared units of the coordinates.", one.area, two.area),
+        Row(
+            "Absolute Gaussian curvature |K|",
+            "Sum over the vertices of how far the angles are from 360°, in radians.",
+            one.absolute_gaussian_curvature,
+            two.absolute_gaussian_curvature,
+            better=-1,
+        ),
+        Row(
+            "Absolute mean curvature M",
+            "Sum of dihedral angle times length over the edges.",
+            one.absolute_mean_curvature,
+            two.absolute_mean_curvature,
+            better=-1,
+        ),
+        Row("Mean shape", "1 is equilateral.", _mean(before), _mean(after), better=1),
+        Row(
+            "Shape of the worst 1 %",
+            "So many triangles have a lower shape.",
+            _worst_shape(before),
+            _worst_shape(after),
+            better=1,
+        ),
+        Row("Smallest angle", "", _least(before), _least(after), "°", better=1),
+        Row("Largest dihedral angle", "0° is flat.", _fold(before), _fold(after), "°", better=-1),
+        Row("Faces that cut others", "", before.cuts, after.cuts, better=-1),
+    ]
+
+
+def normal_change(before: Examined, after: Examined) -> float:
+    """The mean angle in degrees between the normals of vertices before and after."""
+    used = np.unique(before.faces)
+    cosines = np.einsum("vx,vx->v", before.normals[used], after.normals[used])
+    return float(np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0))).mean()) if len(used) else 0.0
+
+
+def _mean(mesh: Examined) -> float | None:
+    return float(mesh.shapes.mean()) if len(mesh.shapes) else None
+
+
+def _worst_shape(mesh: Examined) -> float | None:
+    return float(np.quantile(mesh.shapes, WORST_SHARE)) if len(mesh.shapes) else None
+
+
+def _least(mesh: Examined) -> float | None:
+    return float(np.nanmin(mesh.angles)) if np.isfinite(mesh.angles).any() else None
+
+
+def _fold(mesh: Examined) -> float | None:
+    return float(np.nanmax(mesh.dihedral)) if np.isfinite(mesh.dihedral).any() else None
+
+
+# --- as HTML -------------------------------------------------------------------------------------
+
+
+def table_rows(found: list[Row]) -> str:
+    """The rows of a table, as HTML."""
+    return "\n".join(_table_row(row) for row in found)
+
+
+def _table_row(row: Row) -> str:
+    name = escape(row.name)
+    if row.help:
+        name += f"<small>{escape(row.help)}</small>"
+    cells = "".join(f"<td>{written(value, row.unit)}</td>" for value in (row.before, row.after))
+    return f'<tr><th scope="row">{name}</th>{cells}<td>{change(row)}</td></tr>'
+
+
+def change(row: Row) -> str:
+    """How much a measure changed, as HTML; good or bad is said in words, too."""
+    if row.note:
+        return escape(row.note)
+    if row.before is None or row.after is None:
+        return ""
+    difference = row.after - row.before
+    if not math.isfinite(difference):
+        return ""
+    if difference == 0.0:
+        return "same"
+    sign = "+" if difference > 0.0 else MINUS
+    if (row.before and not float(row.before).is_integer()) or abs(row.before) > PERCENT:
+        text = f"{sign}{PERCENT * abs(difference / row.before):.3g} %"
+    else:
+        text = f"{sign}{written(abs(difference), row.unit)}"
+    if not row.better:
+        return text
+    is_good = difference * row.better > 0.0
+    kind, word = ("good", "better") if is_good else ("bad", "worse")
+    return f'<span class="{kind}">{text} {word}</span>'
+
+
+def written(value: Any, unit: str = "") -> str:
+    """A number as people read it; a dash for None."""
+    if value is None:
+        return DASH
+    if float(value).is_integer() and abs(value) < LARGE:
+        return f"{int(value):,}{unit}"
+    if not math.isfinite(value):
+        return str(value)
+    if not SMALL <= abs(value) < LARGE:
+        return f"{value:.{DIGITS - 1}e}{unit}"
+    before_point = len(str(int(abs(value)))) if abs(value) >= 1.0 else 0
+    return f"{value:,.{max(DIGITS - before_point, 0)}f}{unit}"
+
+
+def of_result(result: FlipResult) -> list[tuple[str, str]]:
+    """What a result of flips says beside its mesh: names and texts."""
+    passes = "; ".join(
+        f"{one.energy} by {one.search}: {one.flips:,} flips" for one in result.passes
+    )
+    return [
+        ("Passes", passes),
+        ("Flips made", f"{result.flips:,}"),
+        ("Deviation at most", f"{result.deviation:.4g}"),
+        ("Ended", result.reason),
+    ]

@@ -47,6 +47,22 @@ def note(text: str) -> None:
 
 
 @contextmanager
+def notes_kept() -> Iterator[list[str]]:
+    """Give a list that gets the notes inside, which also go where they went before."""
+    take, kept = _take.get(), list[str]()
+
+    def keep(text: str) -> None:
+        kept.append(text)
+        take(text)
+
+    token = _take.set(keep)
+    try:
+        yield kept
+    finally:
+        _take.reset(token)
+
+
+@contextmanager
 def notes_taken_by(take: Callable[[str], None]) -> Iterator[None]:
     """Inside, `take` gets the notes, each text only once."""
     seen: set[str] = set()

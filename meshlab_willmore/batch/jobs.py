@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ..files import writable_folder
-from ..mesh_files.paths import Input, NoMatchError, Output, check_output
+from ..mesh_files.paths import Input, NoMatchError, Output, check_output, check_place
 from ..messages import WrongUse
 from .shards import Shard
 
@@ -16,12 +16,14 @@ from .shards import Shard
 class Job(NamedTuple):
     """One run of the script on its input, or on several as layers; why it can't be read.
 
-    One output is for the layer that is current in the end, several are for the first layers.
+    One output is for the layer that is current in the end, several are for the first layers. The
+    report page is for the first input, and what became of it.
     """
 
     inputs: tuple[Path, ...]
     outputs: tuple[Output, ...]
     problem: WrongUse | None = None
+    page: Path | None = None
 
     @property
     def files(self) -> tuple[Path, ...]:
@@ -48,15 +50,16 @@ def plan(
     layers: bool,
     force: bool,
     shard: Shard | None = None,
+    page: Output | None = None,
 ) -> list[Job]:
     """Divide inputs and outputs into jobs, and check every output as `check_output` does.
 
     Folders with a placeholder in their name are made. An input that can't be read has a job without
     outputs; the others go on. Only the jobs of the shard are returned, and only their files
-    checked: those of other shards may have been written already. Raises `WrongUse` if inputs and
-    outputs don't fit together.
+    checked: those of other shards may have been written already. Each job has a report page if one
+    is given. Raises `WrongUse` if inputs and outputs don't fit together.
     """
-    planned = list(_jobs(inputs, outputs, layers))
+    planned = list(_jobs(inputs, outputs, layers, page))
     _check_distinct(planned, [path for path, _ in inputs] if len(planned) > 1 else ())
     jobs = [job for job in planned if shard is None or shard.has(job.name)]
     for job in jobs:
@@ -64,6 +67,10 @@ def plan(
             if "{" in os.path.dirname(pattern.name):
                 _make_folder(job, output.path, _fixed_part(pattern.name))
             check_output(output.path, force)
+        if page is not None and job.page is not None:
+            if "{" in os.path.dirname(page.name):
+                _make_folder(job, job.page, _fixed_part(page.name))
+            check_place(job.page, force, "{name}.html")
     return jobs
 
 
@@ -89,7 +96,12 @@ def _fixed_part(pattern: str) -> Path:
     return Path(os.path.dirname(pattern.partition("{")[0]) or ".")
 
 
-def _jobs(inputs: Sequence[Input], outputs: Sequence[Output], layers: bool) -> Iterator[Job]:
+def _jobs(
+    inputs: Sequence[Input], outputs: Sequence[Output], layers: bool, page: Output | None
+) -> Iterator[Job]:
+    def page_of(path: Path, index: int) -> Path | None:
+        return None if page is None else page.of(path, index).path
+
     if not inputs:
         for output in outputs:
             if output.has_placeholder:
@@ -100,7 +112,8 @@ def _jobs(inputs: Sequence[Input], outputs: Sequence[Output], layers: bool) -> I
             if problem is not None:
                 raise problem
         paths = tuple(path for path, _ in inputs)
-        yield Job(paths, tuple(output.of(paths[0], 1) for output in outputs))
+        filled = tuple(output.of(paths[0], 1) for output in outputs)
+        yield Job(paths, filled, page=page_of(paths[0], 1))
     elif len(outputs) > 1 or (outputs and not outputs[0].has_placeholder):
         raise WrongUse(
             f"{len(inputs)} inputs need one -o with a placeholder, such as "
@@ -112,7 +125,7 @@ def _jobs(inputs: Sequence[Input], outputs: Sequence[Output], layers: bool) -> I
             # A file keeps its number, whatever is wrong with those before it.
             index += not isinstance(problem, NoMatchError)
             filled = () if problem else tuple(output.of(path, index) for output in outputs)
-            yield Job((path,), filled, problem)
+            yield Job((path,), filled, problem, None if problem else page_of(path, index))
 
 
 def _check_distinct(jobs: Iterable[Job], inputs: Iterable[Path]) -> None:
@@ -124,15 +137,16 @@ def _check_distinct(jobs: Iterable[Job], inputs: Iterable[Path]) -> None:
     writers: dict[str, Job] = {}
     for job in jobs:
         source = job.inputs[0] if job.inputs else Path("the script's own mesh")
-        for output in job.outputs:
-            key = _identity(output.path)
+        pages = [] if job.page is None else [job.page]
+        for path in [*(output.path for output in job.outputs), *pages]:
+            key = _identity(path)
             other = writers.get(key)
             if other is job:
-                raise WrongUse(f"{output.path} is named twice as an output; name it once")
+                raise WrongUse(f"{path} is named twice as an output; name it once")
             if other is not None:
-                raise _clash(other.inputs[0], source, output.path)
+                raise _clash(other.inputs[0], source, path)
             if readers.get(key, source) != source:
-                raise WrongUse(f"the result of {source} would replace the input {output.path}")
+                raise WrongUse(f"the result of {source} would replace the input {path}")
             writers[key] = job
 
 

@@ -84,8 +84,9 @@ class Result(NamedTuple):
         Of this package, of PyMeshLab and of Python.
     host, ended : str
         On which machine, and when.
-    trace, lines : str, tuple of str
-        The traceback of an error and the lines for a log, which are not recorded.
+    trace, lines, picture : str, tuple of str, bytes
+        The traceback of an error, the lines for a log, and a PNG file for a report, which are not
+        recorded.
     """
 
     input: str
@@ -109,6 +110,7 @@ class Result(NamedTuple):
     ended: str = ""
     trace: str = ""
     lines: tuple[str, ...] = ()
+    picture: bytes = b""
 
     @property
     def is_done(self) -> bool:
@@ -118,7 +120,7 @@ class Result(NamedTuple):
     def as_json(self) -> dict[str, Any]:
         """The record of it."""
         record = self._asdict()
-        del record["trace"], record["lines"]
+        del record["trace"], record["lines"], record["picture"]
         record["outputs"] = [saved._asdict() for saved in self.outputs]
         record["returned"] = [step._asdict() for step in self.returned]
         return record

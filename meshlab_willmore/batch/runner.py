@@ -34,7 +34,7 @@ from .pool import RENEWED_AFTER, STARTING, Attempted, Pool, PoolSettings, is_run
 from .process import CRASH, DONE, ERROR, MEMORY, TIMEOUT, Ended, Phase, Task
 from .records import BAD_FILE, Earlier, Records, Result
 from .shards import shard_of
-from .work import READING, Line, Made, Note, Work
+from .work import READING, Line, Made, Note, Picture, Work
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -55,6 +55,7 @@ class Recipe(NamedTuple):
     is_measured: bool = True
     must_be_measured: bool = False
     dry_run: bool = False
+    is_pictured: bool = False
 
 
 class BatchOptions(NamedTuple):
@@ -321,6 +322,7 @@ class Batch:
             recipe.is_measured,
             recipe.must_be_measured,
             recipe.dry_run,
+            recipe.is_pictured,
         )
         folders = tuple({str(place_of(output.path).parent) for output in job.outputs})
         return Task(_WORK, work, options.timeout, folders)
@@ -353,6 +355,7 @@ class Batch:
             ended=time.strftime("%Y-%m-%d %H:%M:%S"),
             trace=ended.trace,
             lines=tuple(message.text for message in heard if isinstance(message, Line)),
+            picture=next((one.png for one in reversed(heard) if isinstance(one, Picture)), b""),
         )
 
     def _outcome(self, job: Job, ended: Ended) -> tuple[str, str]:

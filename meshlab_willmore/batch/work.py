@@ -23,9 +23,9 @@ from ..mesh_files.saving import SaveOptions, save
 from ..meshset import native
 from ..meshset.check import resolve
 from ..meshset.play import Played, play
-from ..messages import counted, notes_taken_by
+from ..messages import counted, notes_kept, notes_taken_by
 from ..mlx.steps import Step
-from . import lost_kernels, steplog
+from . import lost_kernels, pages, steplog
 from .jobs import Job
 from .process import Phase
 from .records import Saved, StepResult
@@ -53,6 +53,12 @@ class Line(NamedTuple):
     text: str
 
 
+class Picture(NamedTuple):
+    """A message: a PNG file of the mesh; a later one replaces it."""
+
+    png: bytes
+
+
 class Work(NamedTuple):
     """The argument of `do`.
 
@@ -72,6 +78,8 @@ class Work(NamedTuple):
         Whether meshes are measured before and after, and whether it is an error if that fails.
     dry_run : bool
         Only read and check.
+    is_pictured : bool
+        Whether pictures of meshes are sent.
     """
 
     job: Job
@@ -82,6 +90,7 @@ class Work(NamedTuple):
     is_measured: bool = True
     must_be_measured: bool = False
     dry_run: bool = False
+    is_pictured: bool = False
 
 
 class Made(NamedTuple):
@@ -100,11 +109,13 @@ def do(work: Work, say: Say) -> Made:
     def begin(phase: str) -> None:
         say(Phase(phase))
 
-    with _noted(say):
+    with _noted(say), notes_kept() as notes:
         say(Phase(READING, _time_to_read(work.job)))
         with memory.limited(memory.reachable()):
             ms = load(work.job, is_isolated=True)
         begin(MEASURING)
+        surface = pages.surface_of(ms) if work.is_pictured or work.job.page else None
+        _send_picture(work, surface, say)
         with lost_kernels.noted():
             before = _measures(ms, work)
             returned, steps = _steps(work, ms, begin)
@@ -115,7 +126,16 @@ def do(work: Work, say: Say) -> Made:
         outputs = tuple(save_all(ms, work.job, options))
         begin(MEASURING)
         after = _measures(ms, work) if work.steps else None
+        if surface is not None:
+            result = pages.surface_of(ms)
+            _send_picture(work, result, say)
+            pages.write_page(work.job, (surface, result), work.steps, returned, notes)
     return Made(outputs, tuple(returned), steps, before, after)
+
+
+def _send_picture(work: Work, surface: pages.Surface | None, say: Say) -> None:
+    if work.is_pictured and surface is not None:
+        say(Picture(pages.picture(surface)))
 
 
 def _time_to_read(job: Job) -> float | None:

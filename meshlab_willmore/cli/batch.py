@@ -16,9 +16,10 @@ from ..batch.jobs import Job, plan
 from ..batch.shards import shard_of
 from ..batch.steplog import log
 from ..batch.summary import Summary, duration, failure
-from ..messages import WrongUse, note
+from ..messages import WrongUse, counted, note
 from . import progress
 from .errors import is_debug
+from .reports import Reports, check_reports, chosen_reports
 from .text import how_many_failed
 
 if TYPE_CHECKING:
@@ -128,7 +129,10 @@ def planned(
     """The jobs of a command, or those of its shard; see `meshlab_willmore.batch.jobs.plan`."""
     given = given_options()
     shard = shard_of(given["shard"]) if "shard" in given else None
-    return plan(inputs, outputs, layers, force or is_resumed(), shard)
+    reports = check_reports(len(inputs) > 1 and not layers, force or is_resumed())
+    if reports != Reports() and not inputs:
+        raise WrongUse("--report shows a mesh before and after, and there is no input")
+    return plan(inputs, outputs, layers, force or is_resumed(), shard, reports.page)
 
 
 def is_batch(jobs: Sequence[object]) -> bool:
@@ -153,16 +157,25 @@ def run_batch(
     given = given_options()
     summary = Summary()
     by_name = {job.name: job for job in jobs}
+    table = None if recipe.dry_run else chosen_reports().table
+    recipe = recipe._replace(is_pictured=table is not None)
+    shown: list[Result] = []
     is_shown = is_listed or not sys.stdout.isatty()
     with ExitStack() as stack:
         options = _options(given, force, stack)
         batch = stack.enter_context(closing(Batch(recipe, jobs, options)))
+        if table is not None:
+            # However the batch ends.
+            stack.callback(_write_table, table, recipe, jobs, shown)
         for result in batch.earlier:
             summary.add(result)
+            shown.append(result)
             _report(result)
         show = stack.enter_context(_progress(batch, summary))
         for result in stack.enter_context(closing(batch.results())):
             summary.add(result)
+            if table is not None:
+                shown.append(result)
             _log(result)
             show()
             for text in result.notes:
@@ -216,6 +229,16 @@ def _client(address: str) -> Iterator[Client]:
         yield client
     finally:
         client.close()
+
+
+def _write_table(
+    path: Path, recipe: Recipe, jobs: Sequence[Job], results: Sequence[Result]
+) -> None:
+    from ..batch.pages import write_table
+
+    order = {job.name: place for place, job in enumerate(jobs)}
+    title = f"{recipe.source}, {counted(len(jobs), 'input')}"
+    write_table(path, title, jobs, sorted(results, key=lambda one: order[one.input]))
 
 
 def _report(result: Result) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 import threading
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -14,13 +15,15 @@ import click
 
 from .. import numba_settings
 from ..batch.steplog import for_json
-from ..mesh_files.paths import only_input
+from ..files import write
+from ..mesh_files.paths import check_place, only_input
 from ..messages import WrongUse
 from ..options import ALLOWLOSS, ENERGY, PRESET, SEARCH, SELECTION, Option
 from . import compare_row, progress
-from .arguments import check_flip_options, flip_options, json_option
-from .compare_row import Comparison, Outcome, check_reference
+from .arguments import check_flip_options, flip_options, force_option, json_option
+from .compare_row import Comparison, Outcome, Pages, check_reference
 from .errors import debug_option, is_debug
+from .reports import Reports, check_reports, report_option
 from .text import table
 
 if TYPE_CHECKING:
@@ -29,6 +32,7 @@ if TYPE_CHECKING:
 EXAMPLES = """\b
 Examples:
   meshlab-willmore compare scan.ply
+  meshlab-willmore compare scan.ply --report presets.html --report 'pages/{name}.html'
   meshlab-willmore compare torus.ply --reference torus:3,1
   meshlab-willmore compare scan.ply --search greedy --energy willmore --timeout 10
   meshlab-willmore compare rough.ply --reference fine.ply --no-peers --json > rows.json
@@ -122,6 +126,8 @@ def _time_limit(_: click.Context, __: click.Parameter, seconds: float) -> float:
     "--peers/--no-peers", default=True, show_default=True, help="Rows of MeshLab's own filters."
 )
 @json_option
+@report_option
+@force_option
 @debug_option
 def command(
     source: str,
@@ -129,11 +135,12 @@ def command(
     timeout: float,
     peers: bool,
     as_json: bool,
+    force: bool,
     **given: Any,
 ) -> None:
     """Flip the edges of IN with all presets, energies and searches, and with MeshLab's own filters.
 
-    The result is a table; nothing is saved. Each row runs in a process of its own, one after
+    The result is a table; no mesh is saved. Each row runs in a process of its own, one after
     another: a filter that takes too long is stopped, one that crashes does not stop the others. If
     a row fails, its error is printed, and the exit code is 1.
     """
@@ -144,7 +151,11 @@ def command(
     # With wrong variables each row would fail, without a clear reason.
     numba_settings.import_numba()
     comparison = Comparison(str(path), reference, timeout)
-    outcomes = _outcomes(comparison, rows)
+    reports = check_reports(is_several=True, force=force)
+    pages = _pages_of(reports, path, rows, force)
+    outcomes = _outcomes(comparison, rows, pages)
+    if reports.table is not None:
+        _write_table(reports.table, comparison, rows, outcomes, pages)
     if as_json:
         pairs = zip(rows, outcomes, strict=True)
         click.echo(json.dumps([_json_row(*pair) for pair in pairs], indent=2))
@@ -175,17 +186,63 @@ def _rows(given: dict[str, Any], peers: bool) -> list[Row]:
     return [*rows, *(PEERS if peers else ())]
 
 
-def _outcomes(comparison: Comparison, rows: Sequence[Row]) -> list[Outcome]:
+def _pages_of(reports: Reports, source: Path, rows: Sequence[Row], force: bool) -> list[Pages]:
+    """The pages of the rows; raises `WrongUse` if one can't be written."""
+    found = []
+    for number, row in enumerate(rows):
+        page = None
+        if reports.page is not None and row.filter:
+            name = re.sub(r"\W+", "-", row.name).strip("-")
+            page = reports.page.of(source.with_name(name + source.suffix), number).path
+            check_place(page, force, "{name}.html")
+        found.append(Pages(page, reports.table is not None))
+    return found
+
+
+def _write_table(
+    path: Path,
+    comparison: Comparison,
+    rows: Sequence[Row],
+    outcomes: Sequence[Outcome],
+    pages: Sequence[Pages],
+) -> None:
+    """Write the report page of the comparison."""
+    from ..report.table import Entry, link, table_page
+
+    columns = _columns(comparison)
+    entries = []
+    for row, outcome, own in zip(rows, outcomes, pages, strict=True):
+        values = {column.head: _numbers(outcome)[column.key] for column in columns}
+        too_long = f"not finished within {comparison.timeout:g} s" if outcome.timed_out else ""
+        problem = outcome.error or too_long
+        entries.append(
+            Entry(
+                row.name,
+                "failed" if outcome.error else "too long" if too_long else "done",
+                not problem,
+                (problem,) if problem else (),
+                outcome.picture,
+                link(path, own.page),
+                {**values, "seconds": outcome.seconds},
+            )
+        )
+    heads = (*(column.head for column in columns), "seconds")
+    title = Path(comparison.source).name
+    text = table_page(title, "Comparison of flips", heads, entries, _legend(comparison))
+    write(path, text.encode())
+
+
+def _outcomes(comparison: Comparison, rows: Sequence[Row], pages: Sequence[Pages]) -> list[Outcome]:
     """Compute the rows one by one, and print the errors of those that failed.
 
     Raises `ClickException` if not even the initial mesh can be measured.
     """
     outcomes: list[Outcome] = []
     with progress.shown(Path(comparison.source).name, len(rows)) as status:
-        for row in rows:
+        for row, own in zip(rows, pages, strict=True):
             status.next(f"{row.name}: {compare_row.READING}")
             say = partial(_show_phase, status, row.name)
-            outcomes.append(compare_row.run(comparison, row, say))
+            outcomes.append(compare_row.run(comparison, row, say, own))
             if outcomes[0].error:
                 break
     for row, outcome in zip(rows, outcomes, strict=False):
@@ -218,7 +275,7 @@ def _numbers(outcome: Outcome) -> dict[str, Any]:
 
 
 def _table(comparison: Comparison, rows: Sequence[Row], outcomes: Sequence[Outcome]) -> str:
-    columns = (*COLUMNS, *REFERENCED) if comparison.reference else COLUMNS
+    columns = _columns(comparison)
     header = ("", *(column.head for column in columns), "seconds")
     cells = [
         (
@@ -228,8 +285,15 @@ def _table(comparison: Comparison, rows: Sequence[Row], outcomes: Sequence[Outco
         )
         for row, outcome in zip(rows, outcomes, strict=True)
     ]
-    legend = f"{LEGEND}\n{REFERENCE_LEGEND}" if comparison.reference else LEGEND
-    return table([header, *cells], legend)
+    return table([header, *cells], _legend(comparison))
+
+
+def _columns(comparison: Comparison) -> tuple[Column, ...]:
+    return (*COLUMNS, *REFERENCED) if comparison.reference else COLUMNS
+
+
+def _legend(comparison: Comparison) -> str:
+    return f"{LEGEND}\n{REFERENCE_LEGEND}" if comparison.reference else LEGEND
 
 
 def _cell(column: Column, outcome: Outcome) -> str:

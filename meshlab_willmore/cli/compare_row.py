@@ -42,6 +42,13 @@ class Comparison(NamedTuple):
     timeout: float
 
 
+class Pages(NamedTuple):
+    """What a row adds to a report: its own page, if there is one, and whether a picture."""
+
+    page: Path | None = None
+    is_pictured: bool = False
+
+
 class Outcome(NamedTuple):
     """The result of a row."""
 
@@ -56,43 +63,58 @@ class Outcome(NamedTuple):
     timed_out: bool = False
     # The traceback of an error.
     trace: str = ""
+    # A PNG file, if one was asked for.
+    picture: bytes = b""
 
 
 class Computation(NamedTuple):
-    """The argument of `compute`: what is compared, a filter and its parameters."""
+    """The argument of `compute`: what is compared, a filter and its parameters, and pages."""
 
     comparison: Comparison
     filter: str
     given: dict[str, Any]
+    name: str = ""
+    pages: Pages = Pages()
 
 
-def run(comparison: Comparison, row: Row, notify: Callable[[str], None]) -> Outcome:
+class Computed(NamedTuple):
+    """What `compute` returns: the fields of an `Outcome`."""
+
+    seconds: float | None
+    quality: dict[str, Any]
+    picture: bytes = b""
+
+
+def run(
+    comparison: Comparison, row: Row, notify: Callable[[str], None], pages: Pages | None = None
+) -> Outcome:
     """Compute one row in a process of its own; `notify` is called with each phase that begins."""
 
     def listen(message: Any) -> None:
         if message != STARTING:
             notify(message.name)
 
-    task = Task(_COMPUTE, Computation(comparison, row.filter, row.given))
+    computation = Computation(comparison, row.filter, row.given, row.name, pages or Pages())
+    task = Task(_COMPUTE, computation)
     with closing(Seat(PoolSettings(threads=core_count()))) as seat:
         ended = seat.attempt(task, listen).ended
     if ended.status == DONE:
-        seconds, quality = ended.value
-        return Outcome(seconds, quality)
+        return Outcome(**ended.value._asdict())
     if ended.status == TIMEOUT:
         return Outcome(timed_out=True)
     return Outcome(error=ended.reason, of_machine=ended.of_machine, trace=ended.trace)
 
 
-def compute(task: Computation, say: Callable[[Any], None]) -> tuple[float | None, dict[str, Any]]:
+def compute(task: Computation, say: Callable[[Any], None]) -> Computed:
     """The seconds of a filter (None if there is none), and the quality of its mesh."""
+    from ..batch.pages import picture
     from ..compare.quality import quality_of
     from ..compare.rows import warm_up
     from ..demo.models import surface_of
 
     ms = loading.loaded(Path(task.comparison.source))
-    faces = surface_of(ms).faces
-    if len(faces) == 0:
+    before = surface_of(ms)
+    if len(before.faces) == 0:
         raise ValueError("the mesh has no faces, it is a point cloud")
     reference = task.comparison.reference
     surface = read_reference(reference) if reference else None
@@ -105,7 +127,15 @@ def compute(task: Computation, say: Callable[[Any], None]) -> tuple[float | None
         ms.apply_filter(task.filter, **task.given)
         seconds = time.perf_counter() - start
     say(Phase(MEASURING))
-    return seconds, quality_of(ms, faces, surface)._asdict()
+    quality = quality_of(ms, before.faces, surface)._asdict()
+    after = surface_of(ms)
+    if task.pages.page is not None and task.filter:
+        from ..report import page
+
+        title = f"{Path(task.comparison.source).name}, {task.name}"
+        settings = {"Filter": task.filter, **task.given}
+        page(before, after, task.pages.page, title=title, settings=settings, seconds=seconds)
+    return Computed(seconds, quality, picture(after) if task.pages.is_pictured else b"")
 
 
 # --- the reference -----------------------------------------------------------------------------

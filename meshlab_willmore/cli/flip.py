@@ -10,12 +10,13 @@ import click
 from ..batch.jobs import Job
 from ..mesh_files import loading
 from ..mesh_files.paths import Output, find_inputs
-from ..messages import WrongUse, reason
+from ..messages import WrongUse, notes_kept, reason
 from ..options import FILTER
 from . import progress
 from .arguments import SeveralParts, check_flip_options, flip_options, force_option, mask_option
 from .batch import batch_options, is_batch, json_file_option, planned, run_batch
 from .errors import debug_option
+from .reports import report_option
 from .text import flip_results
 
 if TYPE_CHECKING:
@@ -30,6 +31,7 @@ Examples:
   meshlab-willmore flip part.stl flipped.stl --featuredeg 30
   meshlab-willmore flip scan.ply flipped.ply --energy willmore --search "variable depth"
   meshlab-willmore flip scan.obj flipped.ply -m vc wt --force
+  meshlab-willmore flip scan.ply flipped.ply --report flips.html
   meshlab-willmore flip 'scans/*.ply' 'out/{name}.ply' --timeout 60 --json flips.jsonl
 """
 
@@ -41,6 +43,7 @@ Examples:
 @mask_option()
 @force_option
 @json_file_option
+@report_option
 @batch_options
 @debug_option
 def command(
@@ -79,20 +82,26 @@ def _step(given: dict[str, Any]) -> Step:
 
 def _flip(job: Job, given: dict[str, Any], force: bool) -> Result:
     """Flip the edges of one mesh in this process."""
+    from ..batch.pages import surface_of, write_page
     from ..batch.process import DONE
     from ..batch.records import Result, StepResult
     from ..mesh_files.saving import SaveOptions, save
 
     (path,), (output,) = job.inputs, job.outputs
-    with progress.shown(path.name) as status:
+    with progress.shown(path.name) as status, notes_kept() as notes:
         status.begin("reading")
         ms = loading.loaded(path)
+        before = surface_of(ms) if job.page else None
         status.begin("flipping")
         with progress.with_details(status):
             returned = _flipped(ms, path, given)
         status.begin(f"saving {output.path}")
         save(ms, output.path, SaveOptions(output.parts, force, path.parent))
-    return Result(job.name, DONE, returned=(StepResult(1, FILTER, 0.0, returned),))
+        step = StepResult(1, FILTER, returned["seconds"], returned)
+        if job.page is not None:
+            status.begin(f"writing {job.page}")
+            write_page(job, (before, surface_of(ms)), (_step(given),), (step,), notes)
+    return Result(job.name, DONE, returned=(step,))
 
 
 def _line(result: Result, job: Job) -> str:

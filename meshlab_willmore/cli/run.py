@@ -16,12 +16,13 @@ from ..batch import steplog
 from ..batch.jobs import Job
 from ..batch.steplog import log
 from ..mesh_files.paths import PLACEHOLDERS, Output, find_inputs
-from ..messages import WrongUse, counted, one_line
+from ..messages import WrongUse, counted, notes_kept, one_line
 from ..signals import killable
 from . import progress, runlog
 from .arguments import LAYER_HELP, force_option, mask_option, take_outputs
 from .batch import batch_options, is_batch, json_file_option, planned, run_batch
 from .errors import debug_option
+from .reports import report_option
 from .scripts import Script, read_script
 from .text import saved_text, step_results
 
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     import pymeshlab
 
     from ..batch.records import Result
+    from ..demo.models import Surface
     from ..meshset.check import Call
     from ..meshset.play import Played
     from ..mlx.steps import Step
@@ -47,6 +49,7 @@ Examples:
   meshlab-willmore run clean.mlx -i 'scans/*.ply' -o 'out/{name}_clean.{ext}'
   meshlab-willmore run clean.mlx -i scan.ply -o clean.obj -m vc vn wt --log log.txt
   meshlab-willmore run clean.mlx -i scan.ply -o clean.ply --set 2.stepsmoothnum=5
+  meshlab-willmore run clean.mlx -i scan.ply -o clean.ply --report clean.html
   meshlab-willmore run align.mlx -i a.ply b.ply --layers -o both.ply
   meshlab-willmore run align.mlx -i a.ply b.ply --layers -o second.ply -l 1 -o last.obj -l x
   meshlab-willmore run makes-a-sphere.mlx -o sphere.ply
@@ -143,6 +146,7 @@ def _only_once(_: click.Context, option: click.Parameter, values: Sequence[str])
 )
 @force_option
 @json_file_option
+@report_option
 @batch_options
 @click.option("--dry-run", is_flag=True, help="Check everything, read the inputs, write nothing.")
 @debug_option
@@ -235,21 +239,42 @@ def _line(options: RunOptions, result: Result, job: Job) -> str:
 
 def _run_job(options: RunOptions, job: Job) -> str:
     """Run the script on the inputs of a job; returns the lines to print."""
+    from ..batch.pages import surface_of
     from ..meshset.check import resolve
 
     if job.problem is not None:
         raise job.problem
     start = time.perf_counter()
-    ms = _load(job)
-    calls = resolve(options.steps, options.source, [mesh.id() for mesh in ms])
-    if options.dry_run:
-        files = " and ".join(output.name for output in job.outputs) or "no file"
-        return f"{job.name}: ok; {counted(len(calls), 'step')} to run, then {files} to write"
-    played = play(ms, calls, options.source, Path(job.name).name)
-    saved = _save(ms, job, options)
-    seconds = time.perf_counter() - start
+    with notes_kept() as notes:
+        ms = _load(job)
+        calls = resolve(options.steps, options.source, [mesh.id() for mesh in ms])
+        if options.dry_run:
+            files = " and ".join(output.name for output in job.outputs) or "no file"
+            return f"{job.name}: ok; {counted(len(calls), 'step')} to run, then {files} to write"
+        before = surface_of(ms) if job.page else None
+        played = play(ms, calls, options.source, Path(job.name).name)
+        saved = _save(ms, job, options)
+        seconds = time.perf_counter() - start
+        if job.page is not None:
+            _write_page(job, (before, surface_of(ms)), options, played, notes)
     line = f"{job.name} -> {saved}: {counted(len(calls), 'step')}, {seconds:.1f} s"
     return "\n".join([line, *step_results(played)])
+
+
+def _write_page(
+    job: Job,
+    surfaces: tuple[Surface | None, Surface | None],
+    options: RunOptions,
+    played: Sequence[Played],
+    notes: Sequence[str],
+) -> None:
+    from ..batch.pages import write_page
+    from ..batch.records import StepResult
+
+    results = [StepResult(p.number, p.name, p.seconds, p.returned) for p in played if p.returned]
+    with progress.shown(job.name) as status:
+        status.begin(f"writing {job.page}")
+        write_page(job, surfaces, options.steps, results, notes)
 
 
 def _load(job: Job) -> pymeshlab.MeshSet:

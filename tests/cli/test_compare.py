@@ -30,7 +30,7 @@ def rows(monkeypatch):
     ran = {}
     becomes = {}
 
-    def run(task, row, say):
+    def run(task, row, say, _pages):
         say(compare_row.RUNNING)
         ran[row.name] = (task, row)
         done = compare_row.Outcome(0.125 if row.filter else None, SOME._asdict())

@@ -1,0 +1,132 @@
+"""Report pages: of a mesh before and after, and of a batch."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..demo.models import Surface
+from ..demo.models import surface_of as current_surface
+from ..files import write
+from ..messages import note, one_line
+from ..mlx.steps import Step
+from . import steplog
+from .jobs import Job
+from .process import ERROR
+from .records import BAD_FILE, Result, StepResult, versions
+
+if TYPE_CHECKING:
+    import pymeshlab
+
+    from ..report.table import Entry
+
+COLUMNS = ("Faces", "Flips", "W before", "W after", "W %", "Seconds", "MiB")
+LEGEND = (
+    "W: Willmore energy, 0 on spheres and planes. Flips: of all steps. MiB: the most memory of the "
+    "worker."
+)
+
+
+def surface_of(ms: pymeshlab.MeshSet) -> Surface | None:
+    """The current mesh; None without one."""
+    return current_surface(ms) if ms.mesh_number() else None
+
+
+def picture(surface: Surface) -> bytes:
+    """A small picture of a mesh; empty if it has coordinates that are not finite."""
+    from .. import thumbnail
+    from ..report.table import PICTURE
+
+    if not np.isfinite(surface.vertices).all():
+        return b""
+    return thumbnail.picture(*surface, *PICTURE)
+
+
+def write_page(
+    job: Job,
+    surfaces: tuple[Surface | None, Surface | None],
+    steps: Sequence[Step] | bytes,
+    returned: Sequence[StepResult],
+    notes: Sequence[str],
+) -> None:
+    """Write the report page of a job, if it has one.
+
+    A mesh that no page can be made of, as it has coordinates that are not finite, gets a note.
+    """
+    from ..report import page
+
+    before, after = surfaces
+    if job.page is None:
+        return
+    if before is None or after is None:
+        note(f"{job.page} is not written: there is no mesh {'after' if before else 'before'}")
+        return
+    settings = {
+        **({} if isinstance(steps, bytes) else _steps(steps)),
+        **{f"Step {one.number} returned": _listed(one.returned) for one in returned},
+        "Outputs": ", ".join(output.name for output in job.outputs) or "none",
+        **{name: number for name, number in versions().items() if name != "meshlab_willmore"},
+    }
+    seconds = sum(one.seconds for one in returned) or None
+    try:
+        page(
+            before, after, job.page, title=job.name, settings=settings, seconds=seconds, notes=notes
+        )
+    except ValueError as error:
+        note(f"{job.page} is not written: {one_line(error)}")
+
+
+def _steps(steps: Iterable[Step]) -> dict[str, str]:
+    return {
+        f"Step {number}": ": ".join(
+            filter(None, (step.filter, _listed({p.name: p.value for p in step.params})))
+        )
+        for number, step in enumerate(steps, 1)
+    }
+
+
+def _listed(values: Mapping[str, Any]) -> str:
+    return ", ".join(f"{key} = {_text(value)}" for key, value in values.items())
+
+
+def _text(value: Any) -> str:
+    return f"{value:.6g}" if type(value) is float else steplog.in_line(value)
+
+
+def write_table(path: Path, title: str, jobs: Sequence[Job], results: Iterable[Result]) -> None:
+    """Write the report page of a batch: a table of results, each linked to its own page."""
+    from ..report.table import table_page
+
+    pages = {job.name: job.page for job in jobs}
+    entries = [_entry(result, path, pages.get(result.input)) for result in results]
+    write(path, table_page(title, "Batch", COLUMNS, entries, LEGEND).encode())
+
+
+def _entry(result: Result, path: Path, page: Path | None) -> Entry:
+    from ..report.table import Entry, link, percent
+
+    before, after = result.before or {}, result.after or {}
+    energies = [found.get("willmore_energy") for found in (before, after)]
+    flips = [one.returned["flips"] for one in result.returned if "flips" in one.returned]
+    says_all = result.status in (ERROR, BAD_FILE)
+    failure = result.reason if says_all else f"{result.step}: {result.reason}"
+    return Entry(
+        result.input,
+        result.status,
+        result.is_done,
+        result.notes if result.is_done else (failure, *result.notes),
+        result.picture,
+        link(path, page),
+        {
+            "Faces": after.get("faces", before.get("faces")),
+            "Flips": sum(flips) if flips else None,
+            "W before": energies[0],
+            "W after": energies[1],
+            "W %": percent(*energies),
+            "Seconds": result.seconds,
+            "MiB": None if result.memory is None else result.memory // 2**20,
+        },
+    )

@@ -1,0 +1,72 @@
+"""`--report`: pages on meshes before and after, and on a batch."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import click
+
+from ..mesh_files.paths import Output, check_place
+from ..messages import WrongUse
+
+# Where click keeps the names that were given, and the pages that these are for.
+_NAMES, _CHOSEN = "report names", "reports"
+_ENDINGS = (".html", ".htm")
+
+
+class Reports(NamedTuple):
+    """The page of each mesh, a pattern if there are several; and the page of all."""
+
+    page: Output | None = None
+    table: Path | None = None
+
+
+def _remember(ctx: click.Context, _: click.Parameter, names: Sequence[str]) -> None:
+    ctx.meta[_NAMES] = names
+
+
+report_option = click.option(
+    "--report",
+    "reports",
+    multiple=True,
+    expose_value=False,
+    callback=_remember,
+    metavar="PAGE.html",
+    help="Write a page for a browser: before and after in 3D and in numbers. For several meshes it "
+    "is a table; with a placeholder, as in 'pages/{name}.html', each mesh has a page. Can be given "
+    "twice, for both.",
+)
+
+
+def check_reports(is_several: bool, force: bool) -> Reports:
+    """The pages that were asked for, which `chosen_reports` returns from now on.
+
+    With `is_several` there may be several meshes. Raises `WrongUse` if a name can't be that of a
+    page, or exists and `force` is false; a name with a placeholder is checked when that is filled
+    in.
+    """
+    meta = click.get_current_context().meta
+    page, table = None, None
+    for name in meta.get(_NAMES, ()):
+        if not name.lower().endswith(_ENDINGS):
+            raise WrongUse(f"--report {name}: a page needs a name such as report.html")
+        output = Output(name)
+        is_table = is_several and not output.has_placeholder
+        if (table if is_table else page) is not None:
+            what = "the table of all meshes" if is_table else "the page of a mesh"
+            raise WrongUse(f"--report {name}: {what} has a name already; name it once")
+        if is_table:
+            check_place(output.path, force, "report.html")
+            table = output.path
+        else:
+            page = output
+    chosen = meta[_CHOSEN] = Reports(page, table)
+    return chosen
+
+
+def chosen_reports() -> Reports:
+    """The pages that were asked for, as `check_reports` found them."""
+    chosen: Reports = click.get_current_context().meta.get(_CHOSEN, Reports())
+    return chosen

@@ -1,0 +1,185 @@
+"""`--report`: pages of one mesh, of each of several, and of a batch."""
+
+import json
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+
+from meshlab_willmore.batch import pages
+from meshlab_willmore.batch.records import Result, StepResult
+
+from .conftest import FLIP, TAUBIN, call, cube_file, listing, script_file
+
+EVIL = "<script>alert(1)</script>"
+
+
+class Table(HTMLParser):
+    """The rows of a batch's page: texts, pictures and links; and the names of all elements."""
+
+    def __init__(self, path):
+        super().__init__()
+        self.rows, self.links, self.pictures, self.tags = [], [], 0, []
+        self.feed(Path(path).read_text(encoding="utf-8"))
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append(tag)
+        if tag == "tr":
+            self.rows.append("")
+        elif tag == "small":
+            self.rows[-1] += "|"
+        elif tag == "a":
+            self.links.append(dict(attrs)["href"])
+        self.pictures += tag == "img"
+
+    def handle_endtag(self, tag):
+        if tag in ("td", "th", "small"):
+            self.rows[-1] += "|"
+
+    def handle_data(self, data):
+        if self.rows and self.tags[-1] != "script":
+            self.rows[-1] += data.strip()
+
+
+@pytest.mark.parametrize("command", ["flip", "run"])
+def test_page_of_one_mesh(cube, command):
+    words = ["flip", cube, "out.ply", "--energy", "willmore"]
+    if command == "run":
+        words = ["run", script_file(TAUBIN, FLIP), "-i", cube, "-o", "out.ply"]
+    result = call(*words, "--report", "page.html")
+    assert (result.exit_code, result.stderr) == (0, "")
+    text = Path("page.html").read_text(encoding="utf-8")
+    assert "<h1>cube.ply</h1>" in text
+    assert "out.ply" in text
+    assert ("energy = &#x27;willmore&#x27;" in text) == (command == "flip")
+    assert "flips = " in text
+    head = json.loads(re.search(r'id="head">(.*?)</script>', text)[1])
+    assert head["isSame"] == (command == "flip")
+    assert listing(".") == sorted(
+        ["cube.ply", "out.ply", "page.html"] + ["script.mlx"] * (command == "run")
+    )
+
+
+def test_page_names_what_was_lost_and_escapes_it(monkeypatch):
+    name = f"{EVIL.replace('/', ':')}.obj"
+    Path(name).write_text("mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nf 1 2 3\nf 3 2 4\n")
+    result = call("flip", name, "out.ply", "--report", "page.html")
+    assert result.exit_code == 0
+    assert "Note: " in result.stderr
+    text = Path("page.html").read_text(encoding="utf-8")
+    assert "<script>alert" not in text
+    assert 'aria-label="Notes"' in text
+    assert "&lt;script&gt;alert(1)&lt;:script&gt;.obj" in text
+
+
+def test_batch_has_a_table_and_pages(monkeypatch):
+    for name in ("one", "two"):
+        cube_file(f"{name}.ply")
+    Path("bad.ply").write_text(f"no mesh {EVIL}")
+    words = ["flip", "one.ply", "bad.ply", "two.ply", "{name}.off", "--workers", 1]
+    result = call(*words, "--report", "all.html", "--report", "pages/{name}.html")
+    assert result.exit_code == 2
+    assert "the folder pages does not exist" in result.stderr
+    Path("pages").mkdir()
+    result = call(*words, "--report", "all.html", "--report", "pages/{name}.html",
+                  "--json", "log.jsonl")  # fmt: skip
+    assert result.exit_code == 1
+    assert listing("pages") == ["one.html", "two.html"]
+    table = Table("all.html")
+    assert [row.split("|")[1] for row in table.rows] == ["Name", "bad.ply", "one.ply", "two.ply"]
+    assert "bad file" in table.rows[1]
+    assert "cannot read bad.ply" in table.rows[1]
+    assert re.search(r"\|done\|24\|6\|45.76\|", table.rows[2])
+    assert table.links == ["pages/one.html", "pages/two.html"]
+    assert table.pictures == 2
+    assert "picture" not in Path("log.jsonl").read_text()
+
+    # A batch that goes on has its earlier results in the table, and their pages.
+    Path("one.ply").touch()
+    again = call(*words, "--report", "all.html", "--report", "pages/{name}.html",
+                 "--json", "log.jsonl", "--resume")  # fmt: skip
+    assert again.exit_code == 1
+    table = Table("all.html")
+    assert [row.split("|")[1] for row in table.rows] == ["Name", "bad.ply", "one.ply", "two.ply"]
+    assert table.links == ["pages/one.html", "pages/two.html"]
+
+
+def test_everything_in_a_table_is_escaped():
+    step = StepResult(1, EVIL, 0.5, {"flips": 3})
+    results = [
+        Result(EVIL, EVIL, step=EVIL, reason=EVIL, notes=(EVIL,)),
+        Result("fine", "done", notes=(EVIL,), returned=(step,), picture=b"\x89PNG"),
+    ]
+    pages.write_table(Path("all.html"), EVIL, [], results)
+    harmless = dict.fromkeys(("input", "status", "step", "reason"), "x")
+    plain = [one._replace(**harmless, notes=("x",)) for one in results]
+    pages.write_table(Path("plain.html"), "x", [], [plain[0], plain[1]._replace(status="done")])
+    assert Table("all.html").tags == Table("plain.html").tags
+    assert Table("all.html").tags.count("script") == 1
+
+
+@pytest.mark.parametrize(
+    ("words", "line"),
+    [
+        (["--report", "page.ply"], "--report page.ply: a page needs a name such as report.html"),
+        (["--report", "no/page.html"], "the folder no does not exist"),
+        (["--report", "mine.html"], "mine.html already exists; use --force to overwrite"),
+        (["--report", "."], "--report .: a page needs a name"),
+        (["--report", "a.html", "--report", "b.html"], "the page of a mesh has a name already"),
+        (["--report", "{nam}.html"], "{nam} in '{nam}.html' is no placeholder"),
+    ],
+)
+def test_wrong_name_is_named_before_anything_is_done(cube, words, line):
+    Path("mine.html").write_text("mine")
+    result = call("flip", cube, "out.ply", *words)
+    assert result.exit_code == 2
+    assert line in result.stderr
+    assert listing(".") == ["cube.ply", "mine.html"]
+
+
+def test_pages_of_one_name_are_refused(cube):
+    cube_file("two.ply")
+    result = call("flip", cube, "two.ply", "{name}.off", "--report", "x{{}}{ext}.html")
+    assert result.exit_code == 2
+    assert "would both be written to x{}ply.html; use {name} or {index}" in result.stderr
+
+
+def test_page_may_be_replaced_with_force(cube):
+    Path("page.html").write_text("mine")
+    result = call("flip", cube, "out.ply", "--report", "page.html", "--force")
+    assert result.exit_code == 0
+    assert Path("page.html").read_text() != "mine"
+
+
+def test_nothing_to_compare_is_said(cube):
+    script = script_file(("Sphere", {}))
+    result = call("run", script, "-o", "sphere.ply", "--report", "page.html")
+    assert result.exit_code == 2
+    assert "there is no input" in result.stderr
+    dry = call("run", script_file(FLIP), "-i", cube, "--report", "page.html", "--dry-run")
+    assert dry.exit_code == 0
+    assert not Path("page.html").exists()
+
+
+def test_mesh_without_a_page_is_saved_all_the_same(cube):
+    script = script_file(("Geometric Function", {"x": ("RichString", "0/0")}))
+    result = call("run", script, "-i", cube, "-o", "out.ply", "--report", "page.html")
+    assert result.exit_code == 0, result.stderr
+    assert "Note: page.html is not written: vertex 0 has a coordinate that is" in result.stderr
+    assert listing(".") == ["cube.ply", "out.ply", "script.mlx"]
+
+
+@pytest.mark.slow
+def test_comparison_has_a_table_and_pages(cube):
+    words = ["compare", cube, "--preset", "faithful", "--preset", "shape", "--no-peers"]
+    result = call(*words, "--report", "rows.html", "--report", "{name}.html")
+    assert (result.exit_code, result.stderr) == (0, "")
+    table = Table("rows.html")
+    names = ["Name", "initial", "preset faithful", "preset shape"]
+    assert [row.split("|")[1] for row in table.rows] == names
+    assert table.links == ["preset-faithful.html", "preset-shape.html"]
+    assert table.pictures == 3
+    again = call(*words, "--report", "rows.html")
+    assert again.exit_code == 2
+    assert "rows.html already exists" in again.stderr

@@ -135,7 +135,9 @@ def _on_screen(
 ) -> Array:
     """The corners (m, 3, 3): column and row in pixels, and depth, which grows to the viewer."""
     turned = vertices @ view.T
-    used = turned[np.unique(faces)]
+    is_used = np.zeros(len(vertices), np.bool_)
+    is_used[faces] = True
+    used = turned[is_used]
     low, high = used.min(axis=0), used.max(axis=0)
     room = (1.0 - 2.0 * MARGIN) * np.array([columns, rows])
     share = ((high - low)[:2] / room).max()

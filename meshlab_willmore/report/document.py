@@ -21,11 +21,10 @@ from numpy.typing import NDArray
 from .. import thumbnail
 from .._version import __version__
 from ..files import write
-from ..mesh.build import EDGE_SHIFT, changed_edges, edge_ends
 from ..results import FlipResult
 from . import decimate, histograms, places, rows
-from .examine import Examined, examined
-from .pack import Grid, Shown, grid_of, packed
+from .examine import Examined, examined, side_numbers
+from .pack import Grid, Shown, grid_of, packed, used_by
 
 # The pictures that are seen until the viewer has begun, in pixels.
 POSTER = (640, 480)
@@ -131,7 +130,7 @@ def document(
     """Return the page of two meshes that were examined."""
     is_same = np.array_equal(before.vertices, after.vertices)
     flipped = _flipped(before, after), _flipped(after, before)
-    flips = changed_edges(before.faces, after.faces) if is_same else None
+    flips = len(np.unique(side_numbers(after.faces)[flipped[1].ravel()])) if is_same else None
     most = max(len(before.faces), len(after.faces))
     is_whole = most <= decimate.MOST_FACES
     shown = _shown(before, after, flipped, is_whole)
@@ -216,16 +215,13 @@ def _surface(mesh: Examined) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     return mesh.vertices, mesh.faces
 
 
-def _edges(mesh: Examined) -> NDArray[np.int64]:
-    """A number for the edge at each side of each face: (3 m,)."""
-    low, high = edge_ends(mesh.faces)
-    numbers: NDArray[np.int64] = (low.astype(np.int64) << EDGE_SHIFT) | high
-    return numbers
-
-
 def _flipped(mesh: Examined, other: Examined) -> NDArray[np.bool_]:
     """The sides of faces (m, 3) that the other mesh does not have."""
-    return ~np.isin(_edges(mesh), _edges(other)).reshape(-1, 3)
+    if not len(other.edges):
+        return np.ones(mesh.faces.shape, np.bool_)
+    sides = side_numbers(mesh.faces)
+    places = np.minimum(np.searchsorted(other.edges, sides), len(other.edges) - 1)
+    return (other.edges[places] != sides).reshape(-1, 3)
 
 
 def _shown(
@@ -245,7 +241,7 @@ def _shown(
 
 def _half(shown: Sequence[Shown], grid: Grid, view: NDArray[np.float64]) -> float:
     """From the middle of the picture to its sides, so that the whole mesh is seen."""
-    points = [grid.on_grid(mesh.vertices[np.unique(mesh.faces)]) for mesh in shown]
+    points = [grid.on_grid(mesh.vertices[used_by(mesh.faces, mesh.vertices)]) for mesh in shown]
     flat = np.concatenate(points) @ view[:2].T
     return MARGIN * float(np.abs(flat).max()) if len(flat) else 1.0
 

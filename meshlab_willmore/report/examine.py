@@ -14,12 +14,15 @@ from ..measure import (
     triangle_shapes,
     vertex_willmore_energy,
 )
-from ..mesh.build import build
+from ..mesh.build import EDGE_SHIFT, build, edge_ends
 from ..mesh.normals import vertex_normals
 from ..mesh.validate import check_mesh
 
 Array = NDArray[np.float64]
 Faces = NDArray[np.int32]
+
+# The bits of the higher end in the number of an edge.
+_HIGH = (1 << EDGE_SHIFT) - 1
 
 
 class Examined(NamedTuple):
@@ -39,6 +42,8 @@ class Examined(NamedTuple):
         The angle in degrees at each corner.
     shapes : (m,) float64
         As `meshlab_willmore.measure.triangle_shapes`.
+    edges : (e,) int64
+        Their numbers, as `side_numbers` gives them, sorted.
     valences : (n,) int64
         How many edges end at each vertex.
     cuts : int
@@ -53,6 +58,7 @@ class Examined(NamedTuple):
     dihedral: Array
     angles: Array
     shapes: Array
+    edges: NDArray[np.int64]
     valences: NDArray[np.int64]
     cuts: int
     totals: Measures
@@ -69,6 +75,7 @@ def examined(vertices: Any, faces: Any) -> Examined:
     vertices, faces = check_mesh(vertices, faces)
     scaled = _centred(vertices)
     corners = scaled[faces]
+    edges = _edges(faces)
     return Examined(
         vertices,
         faces,
@@ -77,7 +84,8 @@ def examined(vertices: Any, faces: Any) -> Examined:
         _dihedral_angles(scaled, faces, corners),
         _angles(corners),
         triangle_shapes(vertices, faces),
-        _valences(faces, len(vertices)),
+        edges,
+        np.bincount(np.concatenate([edges >> EDGE_SHIFT, edges & _HIGH]), minlength=len(vertices)),
         int(np.count_nonzero(self_intersections(vertices, faces))),
         measures(vertices, faces),
     )
@@ -122,7 +130,14 @@ def _unit(rows: Array) -> Array:
     return np.divide(rows, lengths, out=np.zeros_like(rows), where=lengths > 0.0)
 
 
-def _valences(faces: Faces, count: int) -> NDArray[np.int64]:
-    ends = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
-    edges = np.unique(ends.astype(np.int64) @ np.array([count, 1]))
-    return np.bincount(np.concatenate([edges // count, edges % count]), minlength=count)
+def side_numbers(faces: Faces) -> NDArray[np.int64]:
+    """The number of the edge at each side of faces (m, 3), by its ends: (3 m,)."""
+    low, high = edge_ends(faces)
+    numbers: NDArray[np.int64] = (low.astype(np.int64) << EDGE_SHIFT) | high
+    return numbers
+
+
+def _edges(faces: Faces) -> NDArray[np.int64]:
+    # `np.unique` is far slower.
+    sides = np.sort(side_numbers(faces))
+    return sides[np.diff(sides, prepend=-1) > 0]

@@ -53,7 +53,7 @@ def rows(before: Examined, after: Examined, flips: int | None) -> list[Row]:
         Row("Faces", "", len(before.faces), len(after.faces)),
     ]
     if flips is not None:
-        edges = int(after.valences.sum()) // 2
+        edges = len(after.edges)
         share = f"{PERCENT * flips / max(edges, 1):.3g} % of {written(edges)}"
         what = "Edges that the mesh before does not have."
         found.append(Row("Flipped edges", what, None, flips, note=share))
@@ -106,9 +106,9 @@ def rows(before: Examined, after: Examined, flips: int | None) -> list[Row]:
 
 def normal_change(before: Examined, after: Examined) -> float:
     """The mean angle in degrees between the normals of vertices before and after."""
-    used = np.unique(before.faces)
+    used = before.valences > 0
     cosines = np.einsum("vx,vx->v", before.normals[used], after.normals[used])
-    return float(np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0))).mean()) if len(used) else 0.0
+    return float(np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0))).mean()) if used.any() else 0.0
 
 
 def _mean(mesh: Examined) -> float | None:

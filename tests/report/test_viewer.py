@@ -122,8 +122,10 @@ def test_click_flies_to_a_place_where_the_mesh_is(browse, sphere_page):
             opened.settle()
             # The label and the ring of a pane are over it, but not in its middle.
             pane = opened.picture(".pane:last-child")
-            middle = pane[pane.shape[0] // 2, pane.shape[1] // 2]
-            assert np.abs(middle - ground).max() > 3, number
+            row, column = pane.shape[0] // 2, pane.shape[1] // 2
+            middle = pane[row - 6 : row + 7, column - 6 : column + 7]
+            # At a fold there may be ground on one side.
+            assert (np.abs(middle - ground).max(axis=2) > 3).mean() > 0.3, number
 
 
 @pytest.mark.parametrize("wish", ["no-preference", "reduce"])

@@ -295,6 +295,8 @@ def optimize_flips(
         worst_shape_before=quality.worst_shape,
         worst_shape_after=quality_after.worst_shape,
         passes=tuple(done),
+        vertices=vertices,
+        faces_before=faces,
     )
 
 

@@ -1,9 +1,16 @@
 """What `meshlab_willmore.optimize_flips` returns."""
 
+from html import escape
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from . import thumbnail
+
+# The pictures of a result in a notebook, in pixels, and how many faces are drawn twice at most.
+PICTURE = (320, 240)
+MOST_FACES_IN_BOTH = 300_000
 
 
 class PassResult(NamedTuple):
@@ -80,6 +87,10 @@ class FlipResult(NamedTuple):
         Mean and least of the shapes of all triangles: 1 if equilateral, 0 without area.
     passes : tuple of PassResult
         What each pass did, in order.
+    vertices : (n, 3) float64
+        The vertices, which have not moved. May share memory with the input.
+    faces_before : (m, 3) int32
+        The faces of the input. May share memory with it.
     """
 
     faces: NDArray[np.int32]
@@ -98,3 +109,41 @@ class FlipResult(NamedTuple):
     worst_shape_before: float
     worst_shape_after: float
     passes: tuple[PassResult, ...]
+    vertices: np.ndarray
+    faces_before: np.ndarray
+
+    def _repr_html_(self) -> str:
+        """The result as notebooks show it: a table, and pictures of the mesh before and after."""
+        rows = (
+            ("Willmore energy W", self.willmore_before, self.willmore_after),
+            (
+                "Absolute mean curvature M",
+                self.absolute_mean_curvature_before,
+                self.absolute_mean_curvature_after,
+            ),
+            ("Mean shape", self.mean_shape_before, self.mean_shape_after),
+            ("Worst shape", self.worst_shape_before, self.worst_shape_after),
+        )
+        cells = "".join(
+            f"<tr><th>{name}</th><td>{before:.6g}</td><td>{after:.6g}</td></tr>"
+            for name, before, after in rows
+        )
+        done = ", ".join(f"{one.energy} by {one.search}" for one in self.passes)
+        return (
+            f"<p><b>{self.flips:,} flips</b> of {len(self.faces):,} faces: {escape(done)}; "
+            f"{escape(self.reason)}.</p>"
+            "<table><thead><tr><th></th><th>before</th><th>after</th></tr></thead>"
+            f"<tbody>{cells}<tr><th></th>{self._pictures()}</tr></tbody></table>"
+        )
+
+    def _pictures(self) -> str:
+        """A cell of a table for each picture; of large meshes only of the result."""
+        view = thumbnail.view_of(self.vertices, self.faces)
+        cells = []
+        for name, faces in (("before", self.faces_before), ("after", self.faces)):
+            png = b""
+            if name == "after" or len(faces) <= MOST_FACES_IN_BOTH:
+                png = thumbnail.picture(self.vertices, faces, *PICTURE, view)
+            image = f'<img src="{thumbnail.data_uri(png)}" alt="The mesh {name}, shaded">'
+            cells.append(f"<td>{image if png else ''}</td>")
+        return "".join(cells)

@@ -11,7 +11,7 @@ import numpy as np
 from ..demo.models import Surface
 from ..demo.models import surface_of as current_surface
 from ..files import write
-from ..messages import note, one_line
+from ..messages import counted, note, one_line
 from ..mlx.steps import Step
 from . import steplog
 from .jobs import Job
@@ -96,12 +96,24 @@ def _text(value: Any) -> str:
     return f"{value:.6g}" if type(value) is float else steplog.in_line(value)
 
 
-def write_table(path: Path, title: str, jobs: Sequence[Job], results: Iterable[Result]) -> None:
-    """Write the report page of a batch: a table of results, each linked to its own page."""
+def write_table(path: Path, source: str, jobs: Sequence[Job], results: Iterable[Result]) -> None:
+    """Write the report page of a batch: a table of results, each linked to its own page.
+
+    Parameters
+    ----------
+    source : str
+        What the script or function is called.
+    jobs : sequence of Job
+        All of the batch; the results come in their order.
+    """
     from ..report.table import table_page
 
-    pages = {job.name: job.page for job in jobs}
-    entries = [_entry(result, path, pages.get(result.input)) for result in results]
+    order = {job.name: (place, job.page) for place, job in enumerate(jobs)}
+    entries = [
+        _entry(result, path, order[result.input][1])
+        for result in sorted(results, key=lambda one: order[one.input][0])
+    ]
+    title = f"{source}, {counted(len(jobs), 'input')}"
     write(path, table_page(title, "Batch", COLUMNS, entries, LEGEND).encode())
 
 

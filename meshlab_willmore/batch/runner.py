@@ -22,7 +22,7 @@ import pymeshlab
 
 from ..files import place_of
 from ..machine import MachineError, core_count
-from ..mesh_files.paths import Output, check_output, find_inputs
+from ..mesh_files.paths import Output, check_output, check_place, find_inputs
 from ..messages import WrongUse, one_line
 from ..mlx.steps import ScriptError, Step
 from ..numba_settings import check_variables
@@ -30,6 +30,7 @@ from ..script import examined
 from . import records
 from .cluster import Cluster
 from .jobs import Job, plan
+from .pages import write_table
 from .pool import RENEWED_AFTER, STARTING, Attempted, Pool, PoolSettings, is_running, own_mark
 from .process import CRASH, DONE, ERROR, MEMORY, TIMEOUT, Ended, Phase, Task
 from .records import BAD_FILE, Earlier, Records, Result
@@ -96,6 +97,7 @@ def run(
     shard: str | None = None,
     client: Client | None = None,
     renewed_after: int = RENEWED_AFTER,
+    report: str | os.PathLike[str] | None = None,
 ) -> Iterator[Result]:
     """Run a script on many meshes, in worker processes that may crash.
 
@@ -133,6 +135,10 @@ def run(
         Run on its Dask cluster; then `workers` is the cluster's.
     renewed_after : int
         A worker is replaced after so many meshes.
+    report : path, optional
+        A page for a browser, with a table of all meshes, that is written in the end, also where the
+        caller ends the batch. With a placeholder, such as ``pages/{name}.html``, each mesh gets a
+        page of its own instead.
 
     Yields
     ------
@@ -154,6 +160,8 @@ def run(
         # Without an input the command `run` does the script once, on no mesh.
         return
     outputs = [] if output is None else [Output(os.fspath(output))]
+    page = None if report is None else Output(os.fspath(report))
+    table = None if page is None or page.has_placeholder else page.path
     is_continued = resume or retry_failed
     jobs = plan(
         find_inputs([os.fspath(name) for name in names]),
@@ -161,7 +169,11 @@ def run(
         False,
         force or is_continued,
         None if shard is None else shard_of(shard),
+        page if table is None else None,
     )
+    if table is not None:
+        check_place(table, force or is_continued, "report.html")
+        recipe = recipe._replace(is_pictured=True)
     options = BatchOptions(
         workers=workers,
         timeout=timeout,
@@ -175,8 +187,16 @@ def run(
         client=client,
         renewed_after=renewed_after,
     )
-    with closing(Batch(recipe, jobs, options)) as batch:
-        yield from batch.results()
+    shown: list[Result] = []
+    with ExitStack() as stack:
+        batch = stack.enter_context(closing(Batch(recipe, jobs, options)))
+        if table is not None:
+            shown += batch.earlier
+            stack.callback(write_table, table, recipe.source, jobs, shown)
+        for result in batch.results():
+            if table is not None:
+                shown.append(result)
+            yield result
 
 
 def recipe_of(script: Script) -> Recipe:

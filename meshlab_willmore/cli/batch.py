@@ -16,7 +16,7 @@ from ..batch.jobs import Job, plan
 from ..batch.shards import shard_of
 from ..batch.steplog import log
 from ..batch.summary import Summary, duration, failure
-from ..messages import WrongUse, counted, note
+from ..messages import WrongUse, note
 from . import progress
 from .errors import is_debug
 from .reports import Reports, check_reports, chosen_reports
@@ -166,7 +166,7 @@ def run_batch(
         batch = stack.enter_context(closing(Batch(recipe, jobs, options)))
         if table is not None:
             # However the batch ends.
-            stack.callback(_write_table, table, recipe, jobs, shown)
+            stack.callback(_write_table, table, recipe.source, jobs, shown)
         for result in batch.earlier:
             summary.add(result)
             shown.append(result)
@@ -231,14 +231,11 @@ def _client(address: str) -> Iterator[Client]:
         client.close()
 
 
-def _write_table(
-    path: Path, recipe: Recipe, jobs: Sequence[Job], results: Sequence[Result]
-) -> None:
+def _write_table(*given: Any) -> None:
+    # It needs PyMeshLab.
     from ..batch.pages import write_table
 
-    order = {job.name: place for place, job in enumerate(jobs)}
-    title = f"{recipe.source}, {counted(len(jobs), 'input')}"
-    write_table(path, title, jobs, sorted(results, key=lambda one: order[one.input]))
+    write_table(*given)
 
 
 def _report(result: Result) -> None:

@@ -159,7 +159,7 @@ def document(
         panes=_panes(before, after, view),
         alternative=escape(_alternative(found, title)),
         legends=part("legends.html"),
-        said="" if is_whole else escape(_of_fewer(most, len(shown[1].faces))),
+        simplified="" if is_whole else _of_fewer(most, len(shown[1].faces)),
         places=_places(groups),
         rows=rows.table_rows(found),
         histograms=histograms.figures(before, after),
@@ -319,8 +319,8 @@ def _alternative(found: Sequence[rows.Row], title: str) -> str:
 
 def _of_fewer(faces: int, shown: int) -> str:
     return (
-        f"Simplified: {shown:,} of {faces:,} faces are shown. Numbers, histograms and worst places "
-        "are of the whole mesh."
+        f"<p><b>Simplified:</b> {shown:,} of {faces:,} faces are shown. Numbers, histograms and "
+        "worst places are of the whole mesh.</p>"
     )
 
 

@@ -7,8 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from meshlab_willmore import batch
 from meshlab_willmore.batch import pages
+from meshlab_willmore.batch.jobs import Job
 from meshlab_willmore.batch.records import Result, StepResult
+from meshlab_willmore.messages import WrongUse
 
 from .conftest import FLIP, TAUBIN, call, cube_file, listing, script_file
 
@@ -111,10 +114,13 @@ def test_everything_in_a_table_is_escaped():
         Result(EVIL, EVIL, step=EVIL, reason=EVIL, notes=(EVIL,)),
         Result("fine", "done", notes=(EVIL,), returned=(step,), picture=b"\x89PNG"),
     ]
-    pages.write_table(Path("all.html"), EVIL, [], results)
+    jobs = [Job((Path(one.input),), ()) for one in results]
+    pages.write_table(Path("all.html"), EVIL, jobs, results)
     harmless = dict.fromkeys(("input", "status", "step", "reason"), "x")
     plain = [one._replace(**harmless, notes=("x",)) for one in results]
-    pages.write_table(Path("plain.html"), "x", [], [plain[0], plain[1]._replace(status="done")])
+    plain[1] = plain[1]._replace(input="y", status="done")
+    jobs = [Job((Path(one.input),), ()) for one in plain]
+    pages.write_table(Path("plain.html"), "x", jobs, plain)
     assert Table("all.html").tags == Table("plain.html").tags
     assert Table("all.html").tags.count("script") == 1
 
@@ -183,3 +189,18 @@ def test_comparison_has_a_table_and_pages(cube):
     again = call(*words, "--report", "rows.html")
     assert again.exit_code == 2
     assert "rows.html already exists" in again.stderr
+
+
+def test_batch_from_python_has_them_too():
+    cube_file("one.ply")
+    cube_file("two.ply")
+    given = {"script": script_file(FLIP), "inputs": ["one.ply", "two.ply"], "workers": 1}
+    # Also where the caller takes no more.
+    running = batch.run(**given, report="all.html")
+    first = next(running)
+    running.close()
+    assert [row.split("|")[1] for row in Table("all.html").rows] == ["Name", first.input]
+    with pytest.raises(WrongUse, match=r"all\.html already exists"):
+        list(batch.run(**given, report="all.html"))
+    assert [one.status for one in batch.run(**given, report="{name}.html")] == ["done", "done"]
+    assert "<h1>two.ply</h1>" in Path("two.html").read_text()

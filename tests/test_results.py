@@ -16,12 +16,12 @@ def test_result_has_the_mesh_before():
 
 def test_notebook_shows_a_table_and_both_meshes():
     vertices, faces = meshes.bumpy_sphere(100)
-    result = optimize_flips(vertices, faces, preset="faithful")
+    result = optimize_flips(vertices, faces, energy="willmore")
     text = result._repr_html_()
     assert f"<b>{result.flips} flips</b> of 196 faces" in text
     for value in (result.willmore_before, result.willmore_after, result.mean_shape_after):
         assert f"<td>{value:.6g}</td>" in text
-    assert "mean curvature by parallel greedy" in text
+    assert "willmore by parallel greedy" in text
     assert text.count("<table>") == text.count("</table>") == 1
     pictures = text.split('src="data:image/png;base64,')[1:]
     assert len(pictures) == 2

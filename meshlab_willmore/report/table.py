@@ -128,7 +128,9 @@ def _short(value: float) -> str:
 
 def link(path: Path, page: Path | None) -> str:
     """The address of a page from the one at `path`; empty if it is not there."""
-    return os.path.relpath(page, path.parent) if page is not None and page.exists() else ""
+    if page is None or not page.exists():
+        return ""
+    return Path(os.path.relpath(page, path.parent)).as_posix()
 
 
 def percent(before: float | None, after: float | None) -> float | None:

@@ -115,7 +115,7 @@ def test_change_says_whether_it_is_better(before, after, better, text):
 
 def test_fewer_faces_keep_the_surface(monkeypatch):
     monkeypatch.setattr("meshlab_willmore.report.decimate.WANTED", 600)
-    mesh = examined(*meshes.bumpy_sphere(3000, bump=0.0))
+    mesh = examined(*meshes.bumpy_sphere(1500, bump=0.0))
     found = decimated(mesh, cell_size(mesh))
     assert 200 < len(found.faces) <= 750
     radii = np.linalg.norm(found.vertices, axis=1)

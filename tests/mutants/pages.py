@@ -1,0 +1,118 @@
+"""Faults in report pages, their pictures and their viewer."""
+
+from . import Fault
+
+FAULTS = [
+    Fault(
+        "a name becomes markup",
+        "report/document.py",
+        "title=escape(title),\n        made=",
+        "title=title,\n        made=",
+        "tests/report/test_document.py",
+    ),
+    Fault(
+        "a message becomes markup",
+        "report/table.py",
+        "<small>{escape(text)}</small>",
+        "<small>{text}</small>",
+        "tests/cli/test_reports.py",
+    ),
+    Fault(
+        "a text ends the script that it is in",
+        "report/document.py",
+        '.replace("<", "\\\\u003c")',
+        "",
+        "tests/report/test_document.py",
+    ),
+    Fault(
+        "any script runs in a page",
+        "report/document.py",
+        "script_hash=_hash(script)",
+        "script_hash=\"'unsafe-inline'\"",
+        "tests/report/test_document.py",
+    ),
+    Fault(
+        "a page replaces a file of the user",
+        "batch/jobs.py",
+        'check_place(job.page, force, "{name}.html")',
+        'check_place(job.page, True, "{name}.html")',
+        "tests/cli/test_reports.py",
+    ),
+    Fault(
+        "two meshes have one page",
+        "batch/jobs.py",
+        "pages = [] if job.page is None else [job.page]",
+        "pages = []",
+        "tests/cli/test_reports.py",
+    ),
+    Fault(
+        "corners of faces are off by one",
+        "report/pack.py",
+        "[:-1] + 1",
+        "[:-1]",
+        "tests/report/test_pack.py",
+    ),
+    Fault(
+        "the second mesh is not in the order of the first",
+        "report/pack.py",
+        "_in_order(after, before if is_same else after)",
+        "_in_order(after, after)",
+        "tests/report/test_pack.py",
+    ),
+    Fault(
+        "what got worse is called better",
+        "report/rows.py",
+        "difference * row.better > 0.0",
+        "difference * row.better < 0.0",
+        "tests/report/test_examine.py",
+    ),
+    Fault(
+        "the farthest triangle is seen",
+        "thumbnail.py",
+        'np.argsort(depths, kind="stable")',
+        'np.argsort(-depths, kind="stable")',
+        "tests/test_thumbnail.py",
+    ),
+    Fault(
+        "failures are not first",
+        "report/table.py",
+        "key=lambda entry: entry.is_done",
+        "key=lambda entry: not entry.is_done",
+        "tests/cli/test_reports.py",
+    ),
+    Fault(
+        "the viewer shows one mesh twice",
+        "report/parts/viewer.js",
+        "head.isSame ? first : undefined)].map(upload)",
+        "head.isSame ? first : undefined)].map(() => upload(first))",
+        "tests/report/test_viewer.py",
+    ),
+    Fault(
+        "the viewer asks somebody",
+        "report/parts/page.html",
+        '<link rel="icon" href="data:,">',
+        '<link rel="stylesheet" href="https://example.org/x.css">',
+        "tests/report/test_viewer.py",
+    ),
+    Fault(
+        "keys do nothing",
+        "report/parts/viewer.js",
+        'on("keydown", pressed);',
+        "",
+        "tests/report/test_viewer.py",
+    ),
+    Fault(
+        "the page is too wide for a phone",
+        "report/parts/page.css",
+        "  .panes { grid-template-columns: 1fr; }\n",
+        "",
+        "tests/report/test_viewer.py",
+    ),
+    Fault(
+        "unknown numbers are sorted first",
+        "report/parts/table.js",
+        "[...known, ...unknown]",
+        "[...unknown, ...known]",
+        "tests/report/test_table.py",
+    ),
+]

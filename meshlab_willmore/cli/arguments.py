@@ -29,6 +29,8 @@ GONE = {
     "-d": "'meshlab-willmore filters' lists the filters and their parameters",
 }
 
+# A choice in a help text.
+_NAME = re.compile(r"'[a-z]+( [a-z]+)*'")
 _PART = click.Choice([*PARTS, *MANNERS])
 _LAYER = re.compile(r"\d+|c|x")
 
@@ -74,10 +76,28 @@ def _click_option(option: Option) -> Callable[..., Any]:
     name = f"--{option.name}"
     if option.type is bool:
         return click.option(f"{name}/--no-{option.name}", default=None, help=_help(option))
-    type_: Any = click.Choice(option.choices) if option.is_choice else option.type
-    if option.type is Length:
-        type_ = _Length()
+    if option.is_choice:
+        return click.option(name, type=Choice(option.choices), metavar="NAME", help=_help(option))
+    type_ = _Length() if option.type is Length else option.type
     return click.option(name, type=type_, help=_help(option))
+
+
+class Choice(click.Choice):
+    """A choice of names whose blanks may be typed as hyphens, which need no quotes."""
+
+    def __init__(self, choices: Collection[str]) -> None:
+        super().__init__([hyphened(choice) for choice in choices])
+        self._names = {hyphened(choice): choice for choice in choices}
+
+    def convert(self, value: Any, param: Any, ctx: Any) -> Any:
+        """The name itself."""
+        found = super().convert(hyphened(value), param, ctx)
+        return self._names.get(found, found)
+
+
+def hyphened(name: str) -> str:
+    """A name as it can be typed without quotes."""
+    return name.replace(" ", "-")
 
 
 class _Length(click.ParamType):
@@ -98,16 +118,19 @@ class _Length(click.ParamType):
 
 
 def _help(option: Option) -> str:
+    text = _NAME.sub(lambda found: hyphened(found[0]), option.help)
     if option.default is None:
-        return option.help
+        return text
     value = option.default
-    if option.type is bool:
+    if option.is_choice:
+        value = hyphened(value)
+    elif option.type is bool:
         value = option.name if value else f"no-{option.name}"
     elif option.type is float:
         value = f"{value:g}"
     elif option.type is Length:
         value = f"{value:g}%"
-    return f"{option.help}  [default: {value}]"
+    return f"{text}  [default: {value}]"
 
 
 def check_flip_options(given: dict[str, Any]) -> None:

@@ -20,11 +20,18 @@ from ..mesh_files.paths import check_place, only_input
 from ..messages import WrongUse
 from ..options import ALLOWLOSS, ENERGY, PRESET, SEARCH, SELECTION, Option
 from . import compare_row, progress
-from .arguments import check_flip_options, flip_options, force_option, json_option
+from .arguments import (
+    Choice,
+    check_flip_options,
+    flip_options,
+    force_option,
+    hyphened,
+    json_option,
+)
 from .compare_row import Comparison, Outcome, Pages, check_reference
 from .errors import debug_option, is_debug
 from .reports import Reports, check_reports, report_option
-from .text import table
+from .text import wrapped_table
 
 if TYPE_CHECKING:
     from ..compare.rows import Row
@@ -32,10 +39,10 @@ if TYPE_CHECKING:
 EXAMPLES = """\b
 Examples:
   meshlab-willmore compare scan.ply
-  meshlab-willmore compare scan.ply --report presets.html --report 'pages/{name}.html'
+  meshlab-willmore compare scan.ply --report presets.html
   meshlab-willmore compare torus.ply --reference torus:3,1
-  meshlab-willmore compare scan.ply --search greedy --energy willmore --timeout 10
-  meshlab-willmore compare rough.ply --reference fine.ply --no-peers --json > rows.json
+  meshlab-willmore compare scan.ply --search variable-depth --timeout 10
+  meshlab-willmore compare rough.ply --reference fine.ply --json > rows.json
 """
 TIMEOUT = 60.0
 # These choose the rows.
@@ -69,12 +76,14 @@ COLUMNS = (
 REFERENCED = (Column("normal", "normal_error", ".2f"), Column("distance", "distance", ".3g"))
 LEGEND = (
     "flips: edges that the initial mesh does not have. W: Willmore energy.\n"
-    "|K|: absolute Gaussian curvature. M: absolute mean curvature, the sum of angle times length.\n"
-    "worst, mean: shape of the triangles, an equilateral one has 1; 1 % of them are below worst.\n"
-    "cuts: faces that cut another. seconds: the filter alone, compiled and loaded before."
+    "|K|: absolute Gaussian curvature.\n"
+    "M: absolute mean curvature, the sum of angle times length.\n"
+    "worst, mean: shape of the triangles, 1: equilateral; 1 % are below worst.\n"
+    "cuts: faces that cut another.\n"
+    "seconds: the filter alone, compiled and loaded before."
 )
 REFERENCE_LEGEND = (
-    "normal: mean angle between the normals of faces and of the reference, in degrees.\n"
+    "normal: mean angle between normals of faces and of the reference, in degrees.\n"
     "distance: root mean square of the distance to the reference."
 )
 
@@ -83,8 +92,10 @@ def _row_option(option: Option) -> Callable[..., Any]:
     return click.option(
         f"--{option.name}",
         multiple=True,
-        type=click.Choice(option.choices),
-        help=f"Only rows of this {option.name}; can be given several times.",
+        type=Choice(option.choices),
+        metavar="NAME",
+        help=f"Only rows of this {option.name}: {', '.join(map(hyphened, option.choices))}. Can be "
+        "given several times.",
     )
 
 
@@ -285,7 +296,7 @@ def _table(comparison: Comparison, rows: Sequence[Row], outcomes: Sequence[Outco
         )
         for row, outcome in zip(rows, outcomes, strict=True)
     ]
-    return table([header, *cells], _legend(comparison))
+    return wrapped_table([header, *cells], _legend(comparison))
 
 
 def _columns(comparison: Comparison) -> tuple[Column, ...]:

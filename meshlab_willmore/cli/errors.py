@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import sys
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import FrameType
@@ -30,6 +31,10 @@ _COMMANDS = {
     "pymeshlab.print_plugin_list()": "'meshlab-willmore doctor'",
 }
 
+# A hyphen inside of a word, and what takes its place while lines are broken.
+_HYPHEN = re.compile(r"(?<=\w)-(?=\w)")
+_HELD = "\0"
+
 # A shell reports this plus its number for a process that a signal ended.
 SIGNAL_EXIT = 128
 
@@ -52,8 +57,36 @@ class _WrongUse(click.ClickException):
     exit_code = 2
 
 
+class _Formatter(click.HelpFormatter):
+    """Writes help without line breaks inside of names with hyphens: they could not be copied."""
+
+    def write_dl(self, rows: Iterable[tuple[str, str]], *args: Any, **given: Any) -> None:
+        """Write a list of options."""
+        held = [(name, _HYPHEN.sub(_HELD, text)) for name, text in rows]
+        super().write_dl(held, *args, **given)
+
+    def write_text(self, text: str) -> None:
+        """Write paragraphs."""
+        super().write_text(_HYPHEN.sub(_HELD, text))
+
+    def getvalue(self) -> str:
+        """All that was written."""
+        return super().getvalue().replace(_HELD, "-")
+
+
+class _Context(click.Context):
+    formatter_class = _Formatter
+
+
 class OneLineErrors(click.Group):
     """A group whose commands end with one line and an exit code when something fails."""
+
+    context_class = _Context
+
+    def add_command(self, cmd: click.Command, name: str | None = None) -> None:
+        """Add a command, whose help is written as that of the group."""
+        cmd.context_class = _Context
+        super().add_command(cmd, name)
 
     def main(self, *args: Any, **given: Any) -> Any:
         """Run the command line with all standard streams open."""

@@ -10,7 +10,6 @@ import click
 
 from ..messages import WrongUse
 from .errors import debug_option
-from .text import in_columns
 
 if TYPE_CHECKING:
     from ..meshset.catalogue import FilterInfo, ParamInfo
@@ -22,7 +21,9 @@ Examples:
   meshlab-willmore filters apply_coord_taubin_smoothing
   meshlab-willmore filters "Taubin Smooth"
 """
-WIDTH = 88
+WIDTH = 80
+# Most names in PyMeshLab are shorter.
+_NAME_WIDTH = 42
 
 
 @click.command("filters", short_help="List filters, or explain one.", epilog=EXAMPLES)
@@ -45,8 +46,14 @@ def command(name: tuple[str, ...]) -> None:
         close = ", ".join(closest(wanted))
         hint = f"; the closest are {close}" if close else ""
         raise WrongUse(f"there is no filter {wanted!r}{hint}")
-    rows = [(k.name, k.meshlab_name) for k in sorted(found, key=lambda k: not k.is_willmore)]
-    click.echo(in_columns(rows, left=2))
+    for known in sorted(found, key=lambda k: not k.is_willmore):
+        click.echo(_listed(known))
+
+
+def _listed(known: FilterInfo) -> str:
+    """Both names: in one line, or the second below where they are too long for that."""
+    line = f"{known.name:{_NAME_WIDTH}}  {known.meshlab_name}"
+    return line if len(line) <= WIDTH else f"{known.name}\n    {known.meshlab_name}"
 
 
 def _matches(known: FilterInfo, words: str) -> bool:

@@ -29,10 +29,10 @@ EXAMPLES = """\b
 Examples:
   meshlab-willmore flip scan.ply flipped.ply
   meshlab-willmore flip part.stl flipped.stl --featuredeg 30
-  meshlab-willmore flip scan.ply flipped.ply --energy willmore --search "variable depth"
+  meshlab-willmore flip scan.ply flipped.ply --search variable-depth
   meshlab-willmore flip scan.obj flipped.ply -m vc wt --force
   meshlab-willmore flip scan.ply flipped.ply --report flips.html
-  meshlab-willmore flip 'scans/*.ply' 'out/{name}.ply' --timeout 60 --json flips.jsonl
+  meshlab-willmore flip 'scans/*.ply' 'out/{name}.ply' --json log.jsonl
 """
 
 

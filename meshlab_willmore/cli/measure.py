@@ -40,8 +40,8 @@ MEASURES = (
     "absolute_mean_curvature",
 )
 LEGEND = (
-    "W: Willmore energy. K and |K|: Gaussian curvature and the sum of its absolute values.\n"
-    "M: absolute mean curvature, the sum of angle times length. Angles are in radians."
+    "W: Willmore energy. K: Gaussian curvature, |K|: the sum of its absolute values.\n"
+    "M: absolute mean curvature, the sum of angle times length. Angles in radians."
 )
 
 

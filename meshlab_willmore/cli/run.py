@@ -46,12 +46,13 @@ A script:
 \b
 Examples:
   meshlab-willmore run clean.mlx -i scan.ply -o clean.ply
-  meshlab-willmore run clean.mlx -i 'scans/*.ply' -o 'out/{name}_clean.{ext}'
-  meshlab-willmore run clean.mlx -i scan.ply -o clean.obj -m vc vn wt --log log.txt
-  meshlab-willmore run clean.mlx -i scan.ply -o clean.ply --set 2.stepsmoothnum=5
-  meshlab-willmore run clean.mlx -i scan.ply -o clean.ply --report clean.html
+  meshlab-willmore run clean.mlx -i 'scans/*.ply' -o 'out/{name}.{ext}'
+  meshlab-willmore run clean.mlx -i scan.ply -o clean.obj -m vc vn wt
+  meshlab-willmore run clean.mlx -i scan.ply -o clean.ply --log log.txt
+  meshlab-willmore run clean.mlx -i scan.ply -o a.ply --set 2.stepsmoothnum=5
+  meshlab-willmore run clean.mlx -i scan.ply -o a.ply --report clean.html
   meshlab-willmore run align.mlx -i a.ply b.ply --layers -o both.ply
-  meshlab-willmore run align.mlx -i a.ply b.ply --layers -o second.ply -l 1 -o last.obj -l x
+  meshlab-willmore run s.mlx -i *.ply --layers -o c.ply -l 1 -o d.ply -lx
   meshlab-willmore run makes-a-sphere.mlx -o sphere.ply
   meshlab-willmore run clean.mlx -i scan.ply -o clean.ply --dry-run
 """

@@ -37,9 +37,32 @@ def table(rows: Sequence[Sequence[str]], legend: str) -> str:
     return "\n".join([lines[0], rule, *lines[1:], rule, legend])
 
 
+def wrapped_table(rows: Sequence[Sequence[str]], legend: str) -> str:
+    """A table as wide as the window: columns that don't fit follow below, beside the first again.
+
+    In a pipe the window has 80 columns, unless the variable ``COLUMNS`` gives another width.
+    """
+    window = shutil.get_terminal_size().columns
+    names, *columns = zip(*rows, strict=True)
+    blocks: list[list[Sequence[str]]] = [[names]]
+    for column in columns:
+        block = [*blocks[-1], column]
+        is_too_wide = sum(_column_width(c) for c in block) + len(GAP) * (len(block) - 1) > window
+        if is_too_wide and len(blocks[-1]) > 1:
+            blocks.append([names, column])
+        else:
+            blocks[-1] = block
+    texts = [table([*zip(*block, strict=True)], "") for block in blocks]
+    return "\n".join([*texts, legend])
+
+
+def _column_width(column: Sequence[str]) -> int:
+    return max(map(width, column))
+
+
 def in_columns(rows: Sequence[Sequence[str]], left: int = 1) -> str:
     """Align rows in columns: the first `left` ones to the left, the others to the right."""
-    widths = [max(map(width, column)) for column in zip(*rows, strict=True)]
+    widths = [_column_width(column) for column in zip(*rows, strict=True)]
     lines = []
     for row in rows:
         cells = [
@@ -59,7 +82,7 @@ def fitted(rows: Sequence[Sequence[str]]) -> list[tuple[str, ...]]:
     if not (terminal_width(sys.stdout) or "COLUMNS" in os.environ):
         return [(printable(name), *rest) for name, *rest in rows]
     window = shutil.get_terminal_size().columns
-    others = [max(map(width, column)) for column in list(zip(*rows, strict=True))[1:]]
+    others = [_column_width(column) for column in list(zip(*rows, strict=True))[1:]]
     room = max(window - sum(others) - len(GAP) * len(others), _LEAST_OF_NAME)
     return [(end_of(printable(name), room), *rest) for name, *rest in rows]
 

@@ -33,7 +33,7 @@ class Parameter(NamedTuple):
     default : object or callable
         The default, or a function of the mesh set, which is None where there is no mesh, and of the
         values of the parameters before. (Of the set, as an exception would keep a reference to the
-        mesh.)
+        mesh.) With a function, None can be given for the default.
     label, tooltip : str
         What MeshLab would write beside and over the field.
     choices : tuple of str
@@ -207,7 +207,8 @@ def read_all(
     values: dict[str, Any] = {}
     for parameter in parameters:
         name = parameter.name
-        is_given = name in given
+        is_default = given.get(name) is None and callable(parameter.default)
+        is_given = name in given and not is_default
         values[name] = (
             parameter.read(given[name]) if is_given else parameter.default_for(ms, values)
         )

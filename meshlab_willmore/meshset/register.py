@@ -9,7 +9,6 @@ here that replace another get it as `before`.
 from __future__ import annotations
 
 import functools
-import inspect
 import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -18,11 +17,10 @@ from typing import Any
 import pymeshlab
 from pymeshlab import MeshSet
 
-from . import ids, layers, native, native_calls, recording
+from . import help_text, ids, layers, native, native_calls, recording
 from .check import resolve
 from .filter import Filter, apply, shown_values, values_of
 from .filters import BY_NAME, FILTERS
-from .parameters import Parameter
 from .play import play
 
 _MISSING = object()
@@ -103,40 +101,9 @@ def _method(filter_: Filter) -> Callable:
     filter_function.__name__ = filter_.name
     filter_function.__qualname__ = f"MeshSet.{filter_.name}"
     filter_function.__module__ = "meshlab_willmore"
-    filter_function.__doc__ = _docstring(filter_)
-    filter_function.__signature__ = _signature(filter_)  # type: ignore[attr-defined]
+    filter_function.__doc__ = help_text.docstring(filter_)
+    filter_function.__signature__ = help_text.signature(filter_)  # type: ignore[attr-defined]
     return filter_function
-
-
-def _signature(filter_: Filter) -> inspect.Signature:
-    parameters = [inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)]
-    for p in filter_.parameters:
-        default = inspect.Parameter.empty if callable(p.default) else p.default
-        parameters.append(
-            inspect.Parameter(p.name, inspect.Parameter.KEYWORD_ONLY, default=default)
-        )
-    return inspect.Signature(parameters)
-
-
-def _docstring(filter_: Filter) -> str:
-    lines = [filter_.summary, "", f"MeshLab name: {filter_.meshlab_name!r}.", "", filter_.info]
-    if filter_.parameters:
-        lines += ["", "Parameters", "----------"]
-    for parameter in filter_.parameters:
-        lines += [f"{parameter.name} : {_type(parameter)}", f"    {parameter.tooltip}"]
-    if filter_.returns:
-        lines += ["", "Returns", "-------", "dict"]
-        lines += [f"    ``{name}`` ({kind}): {text}" for name, kind, text in filter_.returns]
-    return "\n".join(lines)
-
-
-def _type(parameter: Parameter) -> str:
-    if parameter.choices:
-        names = ", ".join(map(repr, parameter.choices))
-        return f"{{{names}}} or index, default {parameter.shown_default()}"
-    if callable(parameter.default):
-        return f"{parameter.type_name()}, optional"
-    return f"{parameter.type_name()}, default {parameter.shown_default()}"
 
 
 # --- applying ----------------------------------------------------------------------------------

@@ -83,6 +83,26 @@ def assert_row(row, vertices, before, faces):
     assert (row["self_intersecting"], row["timed_out"], row["error"]) == (0, False, None)
 
 
+@pytest.fixture
+def wide_window(monkeypatch):
+    monkeypatch.setenv("COLUMNS", "140")
+
+
+def test_table_in_80_columns_has_the_last_columns_below(cube, rows):
+    lines = call("compare", cube, *CHOSEN, "--reference", "sphere:1").stdout.splitlines()
+    assert max(map(len, lines)) <= 80
+    heads = [line.split() for line in lines if line.startswith("   ")]
+    assert heads == [
+        ["flips", "W", "area", "|K|", "M", "worst"],
+        ["mean", "cuts", "normal", "distance", "seconds"],
+    ]
+    for name in NAMES:
+        first, second = (line.split()[-5:] for line in lines if line.startswith(f"{name} "))
+        assert first == ["45.7570", "6.22709", "12.5664", "0.00010", "0.082"]
+        assert "0.671" in second
+
+
+@pytest.mark.usefixtures("wide_window")
 def test_table_layout(cube, rows):
     rows["becomes"][NAMES[1]] = compare_row.Outcome(timed_out=True)
     rows["becomes"][NAMES[2]] = compare_row.Outcome(error="crashed (SIGSEGV)")
@@ -113,6 +133,7 @@ def test_a_filter_that_is_too_slow_is_no_failure(cube, rows):
     assert {row[key] for key in (*Quality._fields, "seconds", "error")} == {None}
 
 
+@pytest.mark.usefixtures("wide_window")
 def test_reference_adds_two_columns(cube, rows):
     quality = SOME._replace(normal_error=9.634, distance=0.0156789)._asdict()
     rows["becomes"]["initial"] = compare_row.Outcome(None, quality)
@@ -148,11 +169,16 @@ def test_reference_adds_two_columns(cube, rows):
         (["--energy", "willmore"], ["greedy, willmore"]),
         (["--search", "greedy", "--energy", "willmore"], ["greedy, willmore"]),
         (
+            ["--search", "variable-depth", "--energy", "mean-curvature"],
+            ["variable depth, mean curvature"],
+        ),
+        (
             ["--energy", "willmore", "--energy", "virtual willmore"],
             ["greedy, willmore", "greedy, virtual willmore"],
         ),
     ],
 )
+@pytest.mark.usefixtures("wide_window")
 def test_rows_can_be_chosen(cube, rows, monkeypatch, arguments, wanted):
     fewer = SEARCH._replace(choices=("greedy",)), ENERGY._replace(choices=ENERGY.choices[:2])
     monkeypatch.setattr(compare, "_ROWS", fewer)
@@ -182,10 +208,10 @@ def test_parameters_of_the_filter_are_those_of_all_its_rows(cube, rows):
 
 
 def test_help_omits_parameters_that_are_the_same_for_all_rows():
-    text = call("compare", "--help").stdout
+    text = " ".join(call("compare", "--help").stdout.split())
     assert "--selection" not in text
     assert "--allowloss" not in text
-    assert "Only rows of this energy; can be given" in text
+    assert "Only rows of this energy: virtual-willmore, willmore, " in text
     assert "meshlab-willmore compare torus.ply --reference torus:3,1" in text
 
 

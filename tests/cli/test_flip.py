@@ -23,6 +23,8 @@ from .conftest import call, cube_file, listing, same_mesh
         (["--energy", "willmore"], {"energy": "willmore"}),
         (["--no-monotone", "--maxflips", "4"], {"monotone": False, "maxflips": 4}),
         (["--featuredeg", "30"], {"featuredeg": 30.0}),
+        (["--energy", "mean-curvature"], {"energy": "mean curvature"}),
+        (["--energy", "mean curvature"], {"energy": "mean curvature"}),
     ],
 )
 def test_flips_like_the_filter(cube, words, given):
@@ -44,8 +46,10 @@ def test_help_has_each_option_with_its_help_text_and_default():
     text = " ".join(call("flip", "--help").stdout.split())
     for option in OPTIONS:
         assert f"--{option.name}" in text
-        assert option.help.split(".")[0] in text
-    assert "[default: virtual willmore]" in text
+        # Names have hyphens here.
+        assert option.help.split(".")[0].replace("-", " ") in text.replace("-", " ")
+        assert all(f"'{choice.replace(' ', '-')}'" in text for choice in option.choices)
+    assert "[default: virtual-willmore]" in text
     assert "--monotone / --no-monotone" in text
     assert "meshlab-willmore flip scan.ply flipped.ply" in text
 
@@ -72,9 +76,12 @@ def test_each_parameter_of_the_filter_is_an_option_of_its_type():
     assert [name for name in options if name in names] == names
     for parameter in parameters:
         option = options[parameter.name]
-        assert tuple(getattr(option.type, "choices", ())) == parameter.choices
+        choices = [option.type.convert(name, option, None) for name in parameter.choices]
+        assert choices == list(parameter.choices)
+        assert len(getattr(option.type, "choices", ())) == len(choices)
         assert option.is_bool_flag == (parameter.type is bool)
-        assert option.help.startswith(parameter.tooltip)
+        # In the command line, names have hyphens.
+        assert option.help.replace("-", " ").startswith(parameter.tooltip.replace("-", " "))
 
 
 @pytest.mark.parametrize(

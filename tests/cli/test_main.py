@@ -77,6 +77,13 @@ def test_help_shows_examples(name, flag):
     assert result.stdout.isascii()
 
 
+@pytest.mark.parametrize("name", ["", *COMMANDS])
+def test_help_fits_80_columns(name):
+    # Wider windows change nothing: click fills 80 columns at most.
+    text = run(*filter(None, [name, "--help"])).stdout
+    assert [line for line in text.splitlines() if len(line) > 80] == []
+
+
 @pytest.mark.parametrize("name", COMMANDS)
 def test_examples_are_valid_commands(name):
     for line in examples(run(name, "--help").stdout):

@@ -2,6 +2,8 @@
 
 import inspect
 import os
+import pydoc
+import re
 import subprocess
 import sys
 
@@ -124,11 +126,36 @@ def test_docstrings_describe_every_parameter(filter_):
     assert filter_.meshlab_name in method.__doc__
     for parameter in filter_.parameters:
         assert f"\n{parameter.name} : " in method.__doc__
-        assert parameter.tooltip in method.__doc__
+        assert parameter.tooltip in " ".join(method.__doc__.split())
+        assert all(f"'{choice}':" in parameter.tooltip for choice in parameter.choices)
     for name, *_ in filter_.returns:
         assert f"``{name}``" in method.__doc__
     signature = inspect.signature(method)
     assert list(signature.parameters) == ["self", *(p.name for p in filter_.parameters)]
+
+
+@pytest.mark.parametrize("filter_", FILTERS, ids=NAMES)
+def test_help_fits_80_columns_and_shows_every_default(filter_):
+    ms = pymeshlab.MeshSet()
+    for owner in (pymeshlab.MeshSet, ms):
+        # The first line and the end of the next one are Python's own.
+        text = pydoc.render_doc(getattr(owner, filter_.name), renderer=pydoc.plaintext)
+        lines = text.replace(" method of pymeshlab.pmeshlab.MeshSet instance", "").splitlines()[1:]
+        assert max(map(len, lines)) <= 80
+        for parameter in filter_.parameters:
+            assert re.search(rf"\b{parameter.name}=.", text)
+    text = pydoc.render_doc(pymeshlab.MeshSet, renderer=pydoc.plaintext)
+    ours = text.partition(f" |  {filter_.name}(")[2].partition("\n |  \n |  ")[0]
+    assert max(map(len, ours.splitlines())) <= 80
+
+
+def test_none_is_the_default_where_that_depends_on_the_mesh(bumpy):
+    bumpy.compute_selection_by_condition_per_face(condselect="fi < 20")
+    given = bumpy.filter_parameter_values(FLIP, selection=None, maxdeviation=None, preset="shape")
+    assert given == bumpy.filter_parameter_values(FLIP, preset="shape")
+    assert given["selection"] is True
+    with pytest.raises(pymeshlab.PyMeshLabException, match="foldangle"):
+        bumpy.filter_parameter_values(FLIP, foldangle=None)
 
 
 def test_native_methods_keep_their_docstrings():

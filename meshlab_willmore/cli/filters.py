@@ -10,6 +10,8 @@ import click
 
 from ..messages import WrongUse
 from .errors import debug_option
+from .step_text import defaults, script_with
+from .text import WIDTH
 
 if TYPE_CHECKING:
     from ..meshset.catalogue import FilterInfo, ParamInfo
@@ -20,32 +22,39 @@ Examples:
   meshlab-willmore filters smooth
   meshlab-willmore filters apply_coord_taubin_smoothing
   meshlab-willmore filters "Taubin Smooth"
+  meshlab-willmore filters "Willmore flipping optimization" --mlx
 """
-WIDTH = 80
 # Most names in PyMeshLab are shorter.
 _NAME_WIDTH = 42
 
 
 @click.command("filters", short_help="List filters, or explain one.", epilog=EXAMPLES)
 @click.argument("name", required=False, nargs=-1)
+@click.option("--mlx", is_flag=True, help="Print the filter NAME as a step of a script.")
 @debug_option
-def command(name: tuple[str, ...]) -> None:
+def command(name: tuple[str, ...], mlx: bool) -> None:
     """List all filters, or those with the words NAME in their names, or explain the filter NAME.
 
     Names are those of PyMeshLab and those of MeshLab and its scripts. Scripts may use either.
+
+    With --mlx the filter is printed as a script to copy from, with all parameters and their
+    defaults. A step needs only those that it changes.
     """
     from ..meshset.catalogue import closest, everything, find
 
     wanted = " ".join(name)
     known = find(wanted) if wanted else None
     if known is not None:
-        click.echo(_explained(known))
+        click.echo(script_with(known) if mlx else _explained(known))
         return
     found = [k for k in everything() if _matches(k, wanted)]
     if not found:
         close = ", ".join(closest(wanted))
         hint = f"; the closest are {close}" if close else ""
         raise WrongUse(f"there is no filter {wanted!r}{hint}")
+    if mlx:
+        example = f'meshlab-willmore filters "{found[0].meshlab_name}" --mlx'
+        raise WrongUse(f"--mlx needs the whole name of one filter, such as: {example}")
     for known in sorted(found, key=lambda k: not k.is_willmore):
         click.echo(_listed(known))
 
@@ -65,7 +74,7 @@ def _explained(known: FilterInfo) -> str:
     lines = [known.name, f"  in MeshLab: {known.meshlab_name}"]
     lines += _wrapped(known.summary)
     lines += ["", "Parameters: none"] if not known.params else ["", "Parameters:"]
-    values = _defaults(known)
+    values = defaults(known)
     tooltips = _tooltips(known)
     for param in known.params:
         lines += _parameter(param, values)
@@ -101,22 +110,6 @@ def _shown(value: Any, param: ParamInfo) -> str:
         return repr(param.choices[value])
     plain = value.tolist() if hasattr(value, "tolist") else value
     return f"{plain:g}" if isinstance(plain, float) else repr(plain)
-
-
-def _defaults(known: FilterInfo) -> dict[str, Any]:
-    """The defaults on a small mesh; some depend on the mesh, some filters need two."""
-    import pymeshlab
-
-    from ..meshset import native
-
-    ms = pymeshlab.MeshSet()
-    with native.muted():
-        try:
-            for _ in range(2):
-                native.apply(ms, "create_cube")
-            return dict(ms.filter_parameter_values(known.name))
-        except native.ERRORS:
-            return {}
 
 
 def _tooltips(known: FilterInfo) -> dict[str, str]:

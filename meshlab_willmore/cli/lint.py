@@ -14,6 +14,7 @@ from .scripts import STANDARD_STREAM, read_script
 
 if TYPE_CHECKING:
     from ..meshset.check import Findings
+    from ..mlx.steps import Fault
 
 EXAMPLES = """\b
 Examples:
@@ -60,12 +61,27 @@ def _is_ok(path: Path) -> bool:
     """Whether a script has no errors; prints errors and warnings."""
     found = _examined(path)
     for fault in found.faults:
-        click.echo(with_commands(f"{path}: {fault}"))
+        click.echo(with_commands(f"{path}: {fault}{_written(fault)}"))
     for warning in found.warnings:
         click.echo(f"{path}: warning: {warning}")
     if not found.faults:
         click.echo(f"{path}: ok, {counted(len(found.calls), 'step')}")
     return not found.faults
+
+
+def _written(fault: Fault) -> str:
+    """How a faulty parameter is written, as the end of a message; empty for other faults."""
+    from ..meshset.catalogue import find
+    from .step_text import element_of
+
+    known = find(fault.filter) if fault.param else None
+    if known is None:
+        return ""
+    own = known.param(fault.param)
+    joint = " " if fault.text.endswith("?") else "; "
+    if own is not None:
+        return f"{joint}for example: {element_of(known, own)}"
+    return f"{joint}'meshlab-willmore filters {known.name} --mlx' shows how they are written"
 
 
 def _examined(path: Path) -> Findings:

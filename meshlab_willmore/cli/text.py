@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from ..batch.records import Saved, StepResult
     from ..meshset.play import Played
 
+# What text fits that is no table.
+WIDTH = 80
 GAP = "  "
 _DOTS = "..."
 # In a window that is too narrow for that, lines wrap.

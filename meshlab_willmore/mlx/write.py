@@ -116,4 +116,9 @@ def _unwritable(attributes: dict[str, str]) -> str | None:
 
 def _quoted(text: str) -> str:
     # Double quotes always, as MeshLab.
-    return f'"{text.translate(_ESCAPES)}"'
+    return f'"{escaped(text)}"'
+
+
+def escaped(text: str) -> str:
+    """The text as it is written inside of double quotes."""
+    return text.translate(_ESCAPES)

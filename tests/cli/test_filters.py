@@ -3,9 +3,10 @@
 import pymeshlab
 import pytest
 
+from meshlab_willmore import script
 from meshlab_willmore.meshset.filters import FILTERS
 
-from .conftest import call
+from .conftest import call, cube_file, same_mesh
 
 FLIP = "meshing_edge_flip_by_willmore_optimization"
 
@@ -81,3 +82,47 @@ def test_the_list_fits_80_columns():
     text = call("filters").stdout
     assert max(map(len, text.splitlines())) <= 80
     assert "\n    Simplification: Quadric Edge Collapse Decimation\n" in text
+
+
+# --- as steps of a script ------------------------------------------------------------------------
+
+
+def test_every_filter_can_be_printed_as_a_step_without_faults(tmp_path):
+    path = tmp_path / "step.mlx"
+    wrong = {}
+    for name in pymeshlab.filter_list():
+        text = call("filters", name, "--mlx").stdout
+        path.write_text(text, encoding="utf-8")
+        (step,) = script.read(path)
+        faults = [*script.check(path), *script.warnings(path)]
+        # What is required has no default, and one that is empty is a fault.
+        faults = [fault for fault in faults if "can't do without it" not in str(fault)]
+        is_wide = [line for line in text.splitlines() if len(line) > 80 and line.count('="') > 1]
+        if faults or is_wide:
+            wrong[name] = (faults, is_wide)
+    assert wrong == {}
+
+
+def test_printed_step_does_what_the_filter_does_by_itself():
+    cube_file()
+    text = call("filters", "Willmore flipping optimization", "--mlx").stdout
+    assert 'enum_val3="shape"/>\n' in text
+    for name in ("selection", "maxdeviation"):
+        assert f'<!-- This default depends on the mesh:\n  <Param name="{name}" ' in text
+    assert call("run", "-", "-i", "cube.ply", "-o", "step.ply", input=text).exit_code == 0
+    call("flip", "cube.ply", "flipped.ply")
+    assert same_mesh("step.ply", "flipped.ply")
+    assert not same_mesh("step.ply", "cube.ply")
+
+
+def test_what_depends_on_the_mesh_is_found_for_native_filters_too():
+    text = call("filters", "generate_resampled_uniform_mesh", "--mlx").stdout
+    assert '<!-- This default depends on the mesh:\n  <Param name="CellSize" ' in text
+    assert '\n  <Param name="mergeCloseVert" type="RichBool" value="false"/>\n' in text
+
+
+def test_a_step_is_printed_of_one_filter_only():
+    result = call("filters", "smooth", "--mlx")
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert result.stderr.startswith("Error: --mlx needs the whole name of one filter, such as: ")
+    assert call("filters", "--mlx").exit_code == 2

@@ -135,3 +135,22 @@ def test_wrong_name_does_not_hide_other_scripts(tmp_path):
     assert result.stdout == f"{path}: ok, 1 step\n"
     assert f"Error: {tmp_path} is a folder" in result.stderr
     assert "Error: no file matches '*.nothing'" in result.stderr
+
+
+def test_faults_of_parameters_show_how_they_are_written():
+    params = {
+        "energy": ("RichEnum", "willmore"),
+        "depth": ("RichInt", 700),
+        "maxdeviation": ("RichAbsPerc", 0.1),
+        "maxflip": ("RichInt", 7),
+    }
+    script_file((FLIP[0], params), path="a.mlx")
+    lines = {line.split("'")[1]: line for line in call("lint", "a.mlx").stdout.splitlines()}
+    assert (
+        '; for example: <Param name="energy" type="RichEnum" value="0" enum_car' in lines["energy"]
+    )
+    assert 'enum_val1="willmore"' in lines["energy"]
+    assert lines["depth"].endswith(' <Param name="depth" type="RichInt" value="5"/>')
+    assert lines["maxdeviation"].endswith('type="RichAbsPerc" value="100%"/>')
+    command = "meshlab-willmore filters meshing_edge_flip_by_willmore_optimization --mlx"
+    assert lines["maxflip"].endswith(f"'maxflips'? '{command}' shows how they are written")

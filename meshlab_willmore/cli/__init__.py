@@ -8,7 +8,20 @@ from __future__ import annotations
 import click
 
 from .._version import __version__
-from . import compare, convert, demo, doctor, filters, flip, lint, measure, run, summary, warmup
+from . import (
+    compare,
+    convert,
+    demo,
+    doctor,
+    filters,
+    flip,
+    lint,
+    measure,
+    run,
+    shipped,
+    summary,
+    warmup,
+)
 from .errors import OneLineErrors, debug_option
 
 # Click fills paragraphs, but for those that begin with a backspace.
@@ -37,5 +50,18 @@ def main() -> None:
     """
 
 
-for module in (run, flip, measure, summary, compare, filters, lint, convert, doctor, warmup, demo):
+for module in (
+    run,
+    flip,
+    measure,
+    summary,
+    compare,
+    filters,
+    shipped,
+    lint,
+    convert,
+    doctor,
+    warmup,
+    demo,
+):
     main.add_command(module.command)

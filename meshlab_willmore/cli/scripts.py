@@ -1,4 +1,4 @@
-"""The filter scripts named on a command line, also in pipes."""
+"""The filter scripts named on a command line: files, pipes, and those of this package."""
 
 from __future__ import annotations
 
@@ -9,12 +9,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..mesh_files.paths import refuse_folder
-from ..messages import WrongUse
+from ..messages import WrongUse, note
 
 if TYPE_CHECKING:
     from ..meshset.check import Findings
 
 STANDARD_STREAM = "-"
+_FOLDER = "filter_scripts"
 
 # Names with the ending of a script, the standard input, and what a shell puts for ``<(...)``.
 _SCRIPT = re.compile(r".*\.mlx|/dev/stdin|/dev/fd/\d+|/proc/self/fd/\d+", re.DOTALL)
@@ -41,6 +42,8 @@ def is_script(word: str) -> bool:
 def read_script(name: str) -> Script:
     """The script of a file or pipe; ``-`` is the standard input.
 
+    A name without a folder that no file has can be that of a script of this package.
+
     Raises `WrongUse` if there is no such file, `ScriptError` if it can't be read.
     """
     from ..mlx.decode import LARGEST, bytes_of
@@ -49,6 +52,19 @@ def read_script(name: str) -> Script:
         # Python has no such stream where it is closed.
         return Script("standard input", sys.stdin.buffer.read(LARGEST + 1) if sys.stdin else b"")
     refuse_folder(Path(name), "script", "clean.mlx")
-    if not os.path.exists(name):
-        raise WrongUse(f"there is no filter script {name}")
-    return Script(name, bytes_of(Path(name)))
+    if os.path.lexists(name):
+        return Script(name, bytes_of(Path(name)))
+    shipped = shipped_scripts().get(name)
+    if shipped is None:
+        hint = "'meshlab-willmore scripts' lists the shipped ones"
+        raise WrongUse(f"there is no filter script {name}; {hint}")
+    note(f"{name} is the script that comes with meshlab_willmore")
+    return Script(name, bytes_of(shipped))
+
+
+def shipped_scripts() -> dict[str, Path]:
+    """The scripts of this package by name; in a checkout they are beside it."""
+    package = Path(__file__).parents[1]
+    installed = package / _FOLDER
+    folder = installed if installed.is_dir() else package.parent / _FOLDER
+    return {path.name: path for path in sorted(folder.glob("*.mlx"))}

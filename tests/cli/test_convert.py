@@ -107,7 +107,10 @@ def test_script_with_errors_is_not_converted():
 @pytest.mark.parametrize(
     ("arguments", "line"),
     [
-        (["no.mlx", "b.mlx"], "there is no filter script no.mlx"),
+        (
+            ["no.mlx", "b.mlx"],
+            "there is no filter script no.mlx; 'meshlab-willmore scripts' lists the shipped ones",
+        ),
         (["a.mlx", "a.mlx"], "a.mlx already exists; use --force to overwrite"),
         (["a.mlx", "."], ". is a folder; name a file in it, such as 'today.mlx'"),
         (["a.mlx", "no/b.mlx"], "cannot write no/b.mlx: the folder no does not exist"),

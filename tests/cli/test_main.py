@@ -14,18 +14,7 @@ from click.testing import CliRunner
 import meshlab_willmore
 from meshlab_willmore.cli import main
 
-COMMANDS = [
-    "compare",
-    "convert",
-    "demo",
-    "doctor",
-    "filters",
-    "flip",
-    "lint",
-    "measure",
-    "run",
-    "warmup",
-]
+COMMANDS = sorted(main.commands)
 RUN_DEMO = "meshlab_willmore.demo.experiments.run_demo"
 WHOLE_RUN = """
 import sys

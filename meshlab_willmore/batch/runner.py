@@ -429,9 +429,9 @@ def _code(function: object) -> str:
         return ""
 
 
-def _manners(jobs: Sequence[Job]) -> list[tuple[tuple[str, ...], str]]:
-    """How outputs are saved: parts and layers, in an order that is always the same."""
-    return sorted({(output.parts, output.layer) for job in jobs for output in job.outputs})
+def _manners(jobs: Sequence[Job]) -> list[tuple[Any, ...]]:
+    """How outputs are saved: all but their names, in an order that is always the same."""
+    return sorted({output[1:] for job in jobs for output in job.outputs})
 
 
 def _remove_stale(folders: Iterable[Path]) -> None:

@@ -257,7 +257,12 @@ def save_all(
     for output, layer in zip(job.outputs, _layers(ms, job), strict=True):
         ms.set_current_mesh(layer)
         with saving(output.path):
-            how = options._replace(parts=output.parts, origin=origin)
+            how = options._replace(
+                parts=output.parts,
+                is_text=output.is_text,
+                is_single=output.is_single,
+                origin=origin,
+            )
             files = save(ms, output.path, how)
         log.info("output %s (%s)", " ".join(map(str, files)), size(ms))
         mesh = ms.current_mesh()

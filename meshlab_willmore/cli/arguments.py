@@ -59,6 +59,18 @@ def mask_option(**more: Any) -> Callable[..., Any]:
     )
 
 
+def form_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The options ``--ascii`` and ``--single``."""
+    command = click.option(
+        "--single",
+        is_flag=True,
+        help="Write the numbers of a PLY's vertices in single precision (float, not double).",
+    )(command)
+    return click.option(
+        "--ascii", "as_text", is_flag=True, help="Write PLY and STL as text, not binary."
+    )(command)
+
+
 def flip_options(leave_out: Collection[str] = ()) -> Callable[..., Any]:
     """An option for each parameter of the flip filter, in their order."""
 

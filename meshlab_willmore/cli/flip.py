@@ -13,7 +13,14 @@ from ..mesh_files.paths import Output, find_inputs
 from ..messages import WrongUse, notes_kept, reason
 from ..options import FILTER
 from . import progress
-from .arguments import SeveralParts, check_flip_options, flip_options, force_option, mask_option
+from .arguments import (
+    SeveralParts,
+    check_flip_options,
+    flip_options,
+    force_option,
+    form_options,
+    mask_option,
+)
 from .batch import batch_options, is_batch, json_file_option, planned, run_batch
 from .errors import debug_option
 from .reports import report_option
@@ -41,13 +48,20 @@ Examples:
 @click.argument("target", metavar="OUT")
 @flip_options()
 @mask_option()
+@form_options
 @force_option
 @json_file_option
 @report_option
 @batch_options
 @debug_option
 def command(
-    sources: tuple[str, ...], target: str, parts: tuple[str, ...], force: bool, **given: Any
+    sources: tuple[str, ...],
+    target: str,
+    parts: tuple[str, ...],
+    as_text: bool,
+    single: bool,
+    force: bool,
+    **given: Any,
 ) -> None:
     """Flip edges of the mesh IN as long as an energy falls, and save it as OUT.
 
@@ -60,7 +74,7 @@ def command(
     chosen = {name: value for name, value in given.items() if value is not None}
     check_flip_options(chosen)
     inputs = find_inputs(sources)
-    output = Output(target, parts)
+    output = Output(target, parts, is_text=as_text, is_single=single)
     if len(inputs) > 1 and not output.has_placeholder:
         example = "'{name}_flipped.ply'"
         raise WrongUse(f"{len(inputs)} inputs need an output with a placeholder, such as {example}")
@@ -96,7 +110,10 @@ def _flip(job: Job, given: dict[str, Any], force: bool) -> Result:
         with progress.with_details(status):
             returned = _flipped(ms, path, given)
         status.begin(f"saving {output.path}")
-        save(ms, output.path, SaveOptions(output.parts, force, path.parent))
+        how = SaveOptions(
+            output.parts, output.is_text, output.is_single, force=force, origin=path.parent
+        )
+        save(ms, output.path, how)
         step = StepResult(1, FILTER, returned["seconds"], returned)
         if job.page is not None:
             status.begin(f"writing {job.page}")

@@ -19,7 +19,7 @@ from ..mesh_files.paths import PLACEHOLDERS, Output, find_inputs
 from ..messages import WrongUse, counted, notes_kept, one_line
 from ..signals import killable
 from . import progress, runlog
-from .arguments import LAYER_HELP, force_option, mask_option, take_outputs
+from .arguments import LAYER_HELP, force_option, form_options, mask_option, take_outputs
 from .batch import batch_options, is_batch, json_file_option, planned, run_batch
 from .errors import debug_option
 from .reports import report_option
@@ -47,6 +47,7 @@ A script:
 Examples:
   meshlab-willmore run clean.mlx -i scan.ply -o clean.ply
   meshlab-willmore run clean.mlx -i 'scans/*.ply' -o 'out/{name}.{ext}'
+  meshlab-willmore run -i part.stl -o part.ply --ascii
   meshlab-willmore run clean.mlx -i scan.ply -o clean.obj -m vc vn wt
   meshlab-willmore run clean.mlx -i scan.ply -o clean.ply --log log.txt
   meshlab-willmore run clean.mlx -i scan.ply -o a.ply --set 2.stepsmoothnum=5
@@ -56,6 +57,8 @@ Examples:
   meshlab-willmore run makes-a-sphere.mlx -o sphere.ply
   meshlab-willmore run clean.mlx -i scan.ply -o clean.ply --dry-run
 """
+# What messages and logs call a run without a script.
+CONVERSION = "conversion"
 _PLACEHOLDERS = ", ".join(f"{{{name}}} ({what})" for name, what in PLACEHOLDERS.items())
 
 
@@ -88,8 +91,10 @@ def _only_once(_: click.Context, option: click.Parameter, values: Sequence[str])
     return values[0] if values else None
 
 
-@click.command("run", cls=RunCommand, short_help="Run a filter script.", epilog=EXAMPLES)
-@click.argument("script", required=False, metavar="SCRIPT.mlx")
+@click.command(
+    "run", cls=RunCommand, short_help="Run a filter script, or convert.", epilog=EXAMPLES
+)
+@click.argument("script", required=False, metavar="[SCRIPT.mlx]")
 @click.option(
     "-s",
     "--script",
@@ -145,6 +150,7 @@ def _only_once(_: click.Context, option: click.Parameter, values: Sequence[str])
     is_flag=True,
     help="Load all inputs as layers of one set, for filters of two meshes.",
 )
+@form_options
 @force_option
 @json_file_option
 @report_option
@@ -160,10 +166,14 @@ def command(
     log_file: str | None,
     settings: Sequence[str],
     layers: bool,
+    as_text: bool,
+    single: bool,
     force: bool,
     dry_run: bool,
 ) -> None:
     """Run a MeshLab filter script (.mlx) on meshes, and save the results.
+
+    Without a script, meshes are converted: they are saved in the formats of their outputs.
 
     The whole script is checked before its first step. It can come from a pipe; - is the standard
     input. Output files are written atomically. Notes say what was lost in loading or saving.
@@ -180,18 +190,29 @@ def command(
     short one is shown below. 'meshlab-willmore filters' lists the names, 'lint' checks a script.
     """
     source = _script_of(script, also)
-    options = RunOptions(source.name, _steps(source, settings), force, dry_run, set())
+    if source is None and not (inputs and outputs):
+        raise WrongUse(
+            "without a script, run converts meshes, and needs -i and -o; name a script, such as: "
+            "run clean.mlx -i scan.ply -o clean.ply"
+        )
+    if source is None and settings:
+        raise WrongUse(f"--set {settings[0]}: there is no script whose steps it could change")
+    name = source.name if source else CONVERSION
+    steps = _steps(source, settings) if source else ()
+    options = RunOptions(name, steps, force, dry_run, set())
+    outputs = [output._replace(is_text=as_text, is_single=single) for output in outputs]
     jobs = planned(find_inputs(inputs), outputs, layers, force)
-    runlog.check(log_file, [Path(source.name), *(file for job in jobs for file in job.files)])
-    with runlog.opened(None if dry_run else log_file, source.name):
+    read = [Path(name)] if source else []
+    runlog.check(log_file, [*read, *(file for job in jobs for file in job.files)])
+    with runlog.opened(None if dry_run else log_file, name):
         _run_all(options, jobs)
 
 
-def _script_of(script: str | None, also: str | None) -> Script:
-    if (script is None) == (also is None):
-        problem = "there is no script; name one" if script is None else "name the script once"
-        raise WrongUse(f"{problem}, such as: run clean.mlx -i scan.ply -o clean.ply")
-    return read_script(script or also or "")
+def _script_of(script: str | None, also: str | None) -> Script | None:
+    if script is not None and also is not None:
+        raise WrongUse("name the script once, such as: run clean.mlx -i scan.ply -o clean.ply")
+    name = also if script is None else script
+    return None if name is None else read_script(name)
 
 
 def _steps(source: Script, settings: Sequence[str]) -> tuple[Step, ...]:
@@ -230,12 +251,16 @@ def _run_all(options: RunOptions, jobs: Sequence[Job]) -> None:
 
 def _line(options: RunOptions, result: Result, job: Job) -> str:
     """What is printed of a mesh that is done."""
-    steps = counted(result.steps, "step")
     if options.dry_run:
         files = " and ".join(output.name for output in job.outputs) or "no file"
-        return f"{job.name}: ok; {steps} to run, then {files} to write"
-    line = f"{job.name} -> {saved_text(result.outputs)}: {steps}, {result.seconds:.1f} s"
+        return f"{job.name}: ok; {counted(result.steps, 'step')} to run, then {files} to write"
+    did = _did(options, result.steps)
+    line = f"{job.name} -> {saved_text(result.outputs)}: {did}, {result.seconds:.1f} s"
     return "\n".join([line, *step_results(result.returned)])
+
+
+def _did(options: RunOptions, steps: int) -> str:
+    return "converted" if options.source == CONVERSION else counted(steps, "step")
 
 
 def _run_job(options: RunOptions, job: Job) -> str:
@@ -258,7 +283,7 @@ def _run_job(options: RunOptions, job: Job) -> str:
         seconds = time.perf_counter() - start
         if job.page is not None:
             _write_page(job, (before, surface_of(ms)), options, played, notes)
-    line = f"{job.name} -> {saved}: {counted(len(calls), 'step')}, {seconds:.1f} s"
+    line = f"{job.name} -> {saved}: {_did(options, len(calls))}, {seconds:.1f} s"
     return "\n".join([line, *step_results(played)])
 
 

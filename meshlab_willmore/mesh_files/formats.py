@@ -36,6 +36,9 @@ PARTS = {
 # Those that are no data: PyMeshLab's keyword and its value.
 MANNERS = {"mp": ("save_polygonal", True), "sa": ("binary", False)}
 
+# Formats without a binary form.
+_TEXTS = frozenset({"dae", "dxf", "json", "obj", "off", "wrl", "x3d", "xyz"})
+
 # Their writers cut a path at its first dot, and leave files beside the folder they were given.
 _ASTRAY = frozenset({"u3d", "idtf"})
 
@@ -53,6 +56,11 @@ def is_written(ending: str) -> bool:
 def holds(ending: str, keyword: str) -> bool:
     """Whether files with this ending take a ``save_...`` keyword of ``save_current_mesh``."""
     return _takes(ending.lower(), keyword)
+
+
+def can_be_text(ending: str) -> bool:
+    """Whether files with this ending are texts, or can be."""
+    return ending.lower() in _TEXTS or holds(ending, "binary")
 
 
 @functools.cache

@@ -151,12 +151,15 @@ def _hint(path: Path) -> str:
 class Output(NamedTuple):
     """An output of `run`: a file or a pattern, the parts of the mesh and the layer to save.
 
-    No parts are those that PyMeshLab saves. A layer is an index, "c" or "x"; empty for none.
+    No parts are those that PyMeshLab saves. A layer is an index, "c" or "x"; empty for none. Files
+    can be texts, and those of PLY in single precision.
     """
 
     name: str
     parts: tuple[str, ...] = ()
     layer: str = ""
+    is_text: bool = False
+    is_single: bool = False
 
     @property
     def path(self) -> Path:

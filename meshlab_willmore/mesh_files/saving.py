@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ..files import folder_beside, refuse_special, replace
 from ..messages import note, reason
-from . import formats
+from . import formats, single
 from .losses import ply_header
 
 if TYPE_CHECKING:
@@ -39,6 +39,9 @@ class SaveOptions(NamedTuple):
 
     # As in `formats.PARTS`; empty for what PyMeshLab saves by default.
     parts: tuple[str, ...] = ()
+    # As text, where the format has both; numbers of a PLY's vertices in single precision.
+    is_text: bool = False
+    is_single: bool = False
     # Overwrite existing files.
     force: bool = False
     # The folder of the input, from which unchanged textures are copied.
@@ -62,10 +65,16 @@ def save(ms: pymeshlab.MeshSet, path: Path, options: SaveOptions) -> list[Path]:
     ending = path.suffix.lstrip(".")
     if missing := formats.not_held(options.parts, ending):
         note(missing)
+    if options.is_text and not formats.can_be_text(ending):
+        note(f".{ending} files are binary in any case")
+    if options.is_single and ending.lower() != "ply":
+        note(f"only PLY files can be in single precision, no .{ending} files")
     with folder_beside(path) as folder:
         images = _textures(ms, path, options)
         draft = _deep_folder(folder, images) / path.name
         _write(ms, draft, path, options)
+        if options.is_single and ending.lower() == "ply":
+            _make_single(draft, path)
         for name, image in images.items():
             folders = (path.parent, options.origin) if options.origin else (path.parent,)
             write_texture(image, draft.parent / name, [place / name for place in folders])
@@ -85,21 +94,24 @@ def _write(ms: pymeshlab.MeshSet, draft: Path, path: Path, options: SaveOptions)
     """Write the current mesh at `draft`; errors name `path`."""
     from ..meshset import native
 
+    ending = path.suffix.lstrip(".")
+    is_text = options.is_text and formats.holds(ending, "binary")
+    manner = {"binary": False} if is_text else {}
     if options.parts:
-        _write_with(ms, draft, path, formats.keywords(options.parts, path.suffix.lstrip(".")))
+        _write_with(ms, draft, path, {**formats.keywords(options.parts, ending), **manner})
         return
     # PyMeshLab saves custom attributes only if each is named, and only as PLY.
     custom = [key for key in native.defaults(ms, "ply") if _ATTRIBUTE.fullmatch(key)]
     if custom and path.suffix.lower() != ".ply":
         note(f"{path.suffix} files hold no custom attributes")
         custom = []
-    _write_with(ms, draft, path, dict.fromkeys(custom, True))
+    _write_with(ms, draft, path, {**dict.fromkeys(custom, True), **manner})
     if custom:
         names = {_simplified(found.name) for found in ply_header(draft).properties}
         sound = [key for key in custom if _simplified(_ATTRIBUTE.sub(r"\1", key)) in names]
         if sound != custom:
             note("custom attributes with odd names are not saved")
-            _write_with(ms, draft, path, dict.fromkeys(sound, True))
+            _write_with(ms, draft, path, {**dict.fromkeys(sound, True), **manner})
 
 
 def _simplified(name: str) -> str:
@@ -123,6 +135,13 @@ def _write_with(ms: pymeshlab.MeshSet, draft: Path, path: Path, flags: dict[str,
         _check_complete(draft, path)
     if why:
         raise OSError(f"cannot write {path}: {why}")
+
+
+def _make_single(draft: Path, path: Path) -> None:
+    try:
+        single.to_single(draft)
+    except OSError as error:
+        raise OSError(f"cannot write {path}: {error.strerror}") from error
 
 
 def _check_complete(source: Path, target: Path) -> None:

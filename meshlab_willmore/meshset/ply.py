@@ -12,7 +12,7 @@ from typing import Any, BinaryIO, NamedTuple
 
 import numpy as np
 
-_SCALARS = {
+SCALARS = {
     "char": "i1",
     "uchar": "u1",
     "short": "<i2",
@@ -66,10 +66,10 @@ def _parse_header(lines: list[str]) -> tuple[list[_Element], tuple[str, ...]]:
             elements.append(_Element(words[1], int(words[2]), []))
         elif words[:2] == ["property", "list"]:
             name = words[4]
-            elements[-1].fields.append((name + _COUNT_SUFFIX, _SCALARS[words[2]]))
-            elements[-1].fields.append((name, _SCALARS[words[3]], (_LIST_LENGTHS[name],)))
+            elements[-1].fields.append((name + _COUNT_SUFFIX, SCALARS[words[2]]))
+            elements[-1].fields.append((name, SCALARS[words[3]], (_LIST_LENGTHS[name],)))
         elif words[:1] == ["property"]:
-            elements[-1].fields.append((words[2], _SCALARS[words[1]]))
+            elements[-1].fields.append((words[2], SCALARS[words[1]]))
     return elements, tuple(textures)
 
 
@@ -113,7 +113,7 @@ def _block(file: BinaryIO, element: _Element) -> np.ndarray:
 
 
 def _type_name(dtype: np.dtype) -> str:
-    return next(name for name, code in _SCALARS.items() if np.dtype(code) == dtype)
+    return next(name for name, code in SCALARS.items() if np.dtype(code) == dtype)
 
 
 def _properties(records: np.ndarray) -> list[str]:

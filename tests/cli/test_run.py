@@ -193,7 +193,12 @@ def no_step(monkeypatch):
 @pytest.mark.parametrize(
     ("arguments", "line"),
     [
-        (["-i", "cube.ply"], "there is no script; name one, such as: run clean.mlx"),
+        (["-i", "cube.ply"], "without a script, run converts meshes, and needs -i and -o; name a"),
+        (["-o", "a.ply"], "without a script, run converts meshes, and needs -i and -o; name a"),
+        (
+            ["-i", "cube.ply", "-o", "a.ply", "--set", "1.a=2"],
+            "--set 1.a=2: there is no script whose steps it could change",
+        ),
         (["script.mlx", "-s", "script.mlx"], "name the script once"),
         (["-s", "a.mlx", "-s", "b.mlx"], "--script is given 2 times; give it once"),
         (["script.mlx", "--log", "a", "-l", "b.txt"], "--log is given 2 times; give it once"),

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from ..files import writable_folder
 from ..mesh_files.paths import Input, NoMatchError, Output, check_output, check_place
+from ..mesh_files.projects import files_of
 from ..messages import WrongUse
 from .shards import Shard
 
@@ -26,11 +27,16 @@ class Job(NamedTuple):
     page: Path | None = None
 
     @property
+    def sources(self) -> tuple[Path, ...]:
+        """The inputs, and the meshes that projects among them name."""
+        return tuple(file for path in self.inputs for file in files_of(path))
+
+    @property
     def files(self) -> tuple[Path, ...]:
         """All files that are read or written, as far as their names are known."""
         outputs = [output.path for output in self.outputs]
         materials = (path.with_name(f"{path.name}.mtl") for path in outputs)
-        return (*self.inputs, *outputs, *materials)
+        return (*self.sources, *outputs, *materials)
 
     @property
     def is_in_place(self) -> bool:

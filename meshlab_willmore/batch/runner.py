@@ -164,7 +164,7 @@ def run(
     table = None if page is None or page.has_placeholder else page.path
     is_continued = resume or retry_failed
     jobs = plan(
-        find_inputs([os.fspath(name) for name in names]),
+        find_inputs([os.fspath(name) for name in names], takes_projects=True),
         outputs,
         False,
         force or is_continued,
@@ -245,7 +245,7 @@ class Batch:
         self._stamps: list[tuple[int, int]] = []
         for job in jobs:
             outputs = [str(output.path) for output in job.outputs]
-            stamp = records.stamp(job.inputs)
+            stamp = records.stamp(job.sources)
             settled = known.settles(job.name, self._hash, stamp, outputs)
             if settled is not None and (settled.is_done or not options.retry_failed):
                 self.earlier.append(settled)
@@ -351,7 +351,7 @@ class Batch:
         job, ended = self.jobs[key], attempted.ended
         made = ended.value if ended.status == DONE else Made((), (), 0, None, None)
         is_replaced = ended.status == DONE and job.is_in_place
-        size, modified = records.stamp(job.inputs) if is_replaced else self._stamps[key]
+        size, modified = records.stamp(job.sources) if is_replaced else self._stamps[key]
         status, reason = self._outcome(job, ended)
         return Result(
             job.name,

@@ -18,7 +18,8 @@ import pymeshlab
 from .. import memory
 from ..compare.rows import warm_up as warm_up_filter
 from ..demo.models import dented_cube
-from ..mesh_files import loading
+from ..mesh_files import loading, projects
+from ..mesh_files.paths import Output, is_project
 from ..mesh_files.saving import SaveOptions, save
 from ..meshset import native
 from ..meshset.check import resolve
@@ -141,7 +142,7 @@ def _send_picture(work: Work, surface: pages.Surface | None, say: Say) -> None:
 def _time_to_read(job: Job) -> float | None:
     """The seconds for reading the inputs of a job; no limit without any."""
     with suppress(OSError):
-        return sum(map(loading.time_limit, job.inputs)) or None
+        return sum(map(loading.time_limit, job.sources)) or None
     return None
 
 
@@ -235,9 +236,13 @@ def load(job: Job, is_isolated: bool = False) -> pymeshlab.MeshSet:
     """The inputs as layers of one set; the first is current, as in `meshlabserver`."""
     ms = pymeshlab.MeshSet()
     for path in job.inputs:
-        loading.load(ms, path, is_isolated)
-        log.info("input %s (%s)", path, size(ms))
-    if len(job.inputs) > 1:
+        if is_project(path):
+            projects.load_project(ms, path, is_isolated)
+            log.info("input %s (%s)", path, counted(ms.mesh_number(), "layer"))
+        else:
+            loading.load(ms, path, is_isolated)
+            log.info("input %s (%s)", path, size(ms))
+    if len(job.inputs) > 1 or any(map(is_project, job.inputs)):
         ms.set_current_mesh(0)
     return ms
 
@@ -254,28 +259,39 @@ def save_all(
     if ms.mesh_number() == 0:
         raise OSError(f"cannot write {job.outputs[0].name}: the script leaves no mesh")
     origin = job.inputs[0].parent if job.inputs else None
-    for output, layer in zip(job.outputs, _layers(ms, job), strict=True):
-        ms.set_current_mesh(layer)
-        with saving(output.path):
-            how = options._replace(
-                parts=output.parts,
-                is_text=output.is_text,
-                is_single=output.is_single,
-                origin=origin,
-            )
-            files = save(ms, output.path, how)
-        log.info("output %s (%s)", " ".join(map(str, files)), size(ms))
-        mesh = ms.current_mesh()
+    layers = iter(_layers(ms, [output for output in job.outputs if not output.is_project]))
+    for output in job.outputs:
+        how = options._replace(
+            parts=output.parts,
+            is_text=output.is_text,
+            is_single=output.is_single,
+            origin=origin,
+        )
+        if output.is_project:
+            files = projects.save_project(ms, output.path, how, saving)
+            meshes = [*ms]
+            what = counted(len(meshes), "layer")
+        else:
+            ms.set_current_mesh(next(layers))
+            with saving(output.path):
+                files = save(ms, output.path, how)
+            meshes, what = [ms.current_mesh()], size(ms)
+        log.info("output %s (%s)", " ".join(map(str, files)), what)
         yield Saved(
-            str(output.path), output.path.stat().st_size, mesh.vertex_number(), mesh.face_number()
+            str(output.path),
+            output.path.stat().st_size,
+            sum(mesh.vertex_number() for mesh in meshes),
+            sum(mesh.face_number() for mesh in meshes),
         )
 
 
-def _layers(ms: pymeshlab.MeshSet, job: Job) -> Sequence[int]:
-    """The id of the layer for each output."""
+def _layers(ms: pymeshlab.MeshSet, outputs: Sequence[Output]) -> Sequence[int]:
+    """The id of the layer for each output that is a mesh."""
+    if not outputs:
+        return []
     current, layers = ms.current_mesh().id(), [mesh.id() for mesh in ms]
     left = counted(len(layers), "layer")
-    chosen = [output.layer for output in job.outputs]
+    chosen = [output.layer for output in outputs]
     if any(chosen):
         highest = max((int(layer) for layer in chosen if layer.isdecimal()), default=0)
         if highest >= len(layers):

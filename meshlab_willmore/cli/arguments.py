@@ -9,12 +9,13 @@ from __future__ import annotations
 import re
 from collections import deque
 from collections.abc import Callable, Collection, Sequence
+from pathlib import Path
 from typing import Any
 
 import click
 
 from ..mesh_files.formats import MANNERS, PARTS
-from ..mesh_files.paths import Output
+from ..mesh_files.paths import PROJECT, Output, is_project
 from ..messages import WrongUse, reason
 from ..options import FILTER, OPTIONS, Length, Option
 from .scripts import is_script
@@ -23,8 +24,6 @@ LAYER_HELP = "an index from 0, c for the current layer, or x for the last one"
 
 # Options of meshlabserver that are gone, and what does their work.
 GONE = {
-    "-p": "projects are not read; name their meshes after -i, with --layers",
-    "-w": "projects are not written; each layer can have an -o of its own",
     "-x": "--force overwrites existing files",
     "-d": "'meshlab-willmore filters' lists the filters and their parameters",
 }
@@ -35,8 +34,11 @@ _PART = click.Choice([*PARTS, *MANNERS])
 _LAYER = re.compile(r"\d+|c|x")
 
 _INPUT, _OUTPUT, _MASK = ("-i", "--input"), ("-o", "--output"), ("-m", "--mask", "-om")
+_PROJECT, _WRITTEN = ("-p", "--project"), ("-w", "--write-project")
 # A name with its value attached.
-_ATTACHED = re.compile(r"(?!-om$)(-[ioml])(.+)|(--(?:input|output|mask|layer))=(.*)", re.DOTALL)
+_ATTACHED = re.compile(
+    r"(?!-om$)(-[iomlpw])(.+)|(--(?:input|output|mask|layer|project|write-project))=(.*)", re.DOTALL
+)
 
 force_option = click.option("--force", is_flag=True, help="Overwrite existing files.")
 json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON.")
@@ -247,6 +249,15 @@ def take_outputs(args: Sequence[str], ctx: click.Context) -> tuple[list[Output],
             names = words.take_values(attached, _is_input)
             done, last, is_behind = [*done, *last], [Output(n, common) for n in names], True
             _check_given(name, names, ctx)
+        elif name in _WRITTEN:
+            names = words.take_value(attached)
+            _check_project(name, names, ctx)
+            done, last, is_behind = [*done, *last], [Output(n, common) for n in names], True
+        elif name in _PROJECT:
+            values = words.take_value(attached)
+            _check_project(name, values, ctx)
+            rest += ["-i", *values, "--layers"]
+            is_behind = False
         elif name in _MASK:
             parts = _parts(name, words, attached, ctx)
             common += () if last else parts
@@ -274,6 +285,12 @@ def take_outputs(args: Sequence[str], ctx: click.Context) -> tuple[list[Output],
 def _check_given(name: str, values: Sequence[str], ctx: click.Context) -> None:
     if not values:
         raise click.BadOptionUsage(name, f"Option {name!r} requires an argument.", ctx)
+
+
+def _check_project(name: str, values: Sequence[str], ctx: click.Context) -> None:
+    _check_given(name, values, ctx)
+    if not is_project(Path(values[0])):
+        raise WrongUse(f"{name} {values[0]}: projects end in {PROJECT}; for a mesh, use -i or -o")
 
 
 def _parts(name: str, words: _Words, attached: list[str], ctx: click.Context) -> tuple[str, ...]:
@@ -323,7 +340,9 @@ def _check_layers(outputs: Sequence[Output]) -> None:
     """Raise `WrongUse` if only some outputs have a layer."""
     if any(output.layer for output in outputs):
         for output in outputs:
-            if not output.layer:
+            if output.is_project and output.layer:
+                raise WrongUse(f"{output.name} is a project, which has all layers; leave -l out")
+            if not (output.layer or output.is_project):
                 raise WrongUse(
                     f"-o {output.name} has no layer, but others have; add -l c for the current one"
                 )

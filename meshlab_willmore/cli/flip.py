@@ -78,6 +78,8 @@ def command(
     if len(inputs) > 1 and not output.has_placeholder:
         example = "'{name}_flipped.ply'"
         raise WrongUse(f"{len(inputs)} inputs need an output with a placeholder, such as {example}")
+    if output.is_project:
+        raise WrongUse(f"{target} would be a project; only run writes projects")
     jobs = planned(inputs, [output], False, force)
     if is_batch(jobs):
         from ..batch.runner import Recipe

@@ -48,6 +48,7 @@ Examples:
   meshlab-willmore run clean.mlx -i scan.ply -o clean.ply
   meshlab-willmore run clean.mlx -i 'scans/*.ply' -o 'out/{name}.{ext}'
   meshlab-willmore run -i part.stl -o part.ply --ascii
+  meshlab-willmore run align.mlx -p scans.mlp -w aligned.mlp
   meshlab-willmore run clean.mlx -i scan.ply -o clean.obj -m vc vn wt
   meshlab-willmore run clean.mlx -i scan.ply -o clean.ply --log log.txt
   meshlab-willmore run clean.mlx -i scan.ply -o a.ply --set 2.stepsmoothnum=5
@@ -120,6 +121,20 @@ def _only_once(_: click.Context, option: click.Parameter, values: Sequence[str])
     metavar="FILE...",
     help="The output file; its ending determines the format. For several inputs, use a name with "
     f"placeholders: {_PLACEHOLDERS}.",
+)
+@click.option(
+    "-p",
+    "--project",
+    expose_value=False,
+    metavar="IN.mlp",
+    help="A MeshLab project, whose meshes become layers; -i adds more of them.",
+)
+@click.option(
+    "-w",
+    "--write-project",
+    expose_value=False,
+    metavar="OUT.mlp",
+    help="Save all layers, as OUT_0.ply, OUT_1.ply and so on, and a project that names them.",
 )
 @mask_option(expose_value=False)
 @click.option(
@@ -201,7 +216,7 @@ def command(
     steps = _steps(source, settings) if source else ()
     options = RunOptions(name, steps, force, dry_run, set())
     outputs = [output._replace(is_text=as_text, is_single=single) for output in outputs]
-    jobs = planned(find_inputs(inputs), outputs, layers, force)
+    jobs = planned(find_inputs(inputs, takes_projects=True), outputs, layers, force)
     read = [Path(name)] if source else []
     runlog.check(log_file, [*read, *(file for job in jobs for file in job.files)])
     with runlog.opened(None if dry_run else log_file, name):

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 from .. import memory
 from ..messages import note, reason
 from ..signals import killable
-from . import formats, losses
+from . import losses
 
 if TYPE_CHECKING:
     import pymeshlab
@@ -127,8 +127,6 @@ def _no_vertex(face: int, vertices: int) -> OSError:
 
 def _why(path: Path, error: Exception) -> str:
     """Why a file can't be read, in one line."""
-    if path.suffix.lower() in formats.PROJECTS:
-        return "projects are not read; name their meshes after -i, with --layers"
     if not path.suffix:
         return "its name has no ending, which determines the format"
     if "Unknown format" in str(error):

@@ -16,6 +16,8 @@ from ..files import UnwritableError, is_stream, place_of, refuse_special, specia
 from ..messages import WrongUse
 from . import formats
 
+# The ending of projects.
+PROJECT = ".mlp"
 PLACEHOLDERS = {
     "name": "the input's name without its ending",
     "ext": "the input's ending",
@@ -44,25 +46,30 @@ class NoMatchError(WrongUse):
     """A pattern that no file matches."""
 
 
-def find_inputs(names: Iterable[str]) -> list[Input]:
+def is_project(path: Path) -> bool:
+    """Whether a file with this name is a project that can be read and written."""
+    return path.suffix.lower() == PROJECT
+
+
+def find_inputs(names: Iterable[str], takes_projects: bool = False) -> list[Input]:
     """The files for names and patterns, in their order, with what is wrong with each.
 
     A name that no file has is a pattern if it has wildcards, also where the shell does not expand
     them; ``**`` goes through folders.
     """
-    return [found for name in names for found in _find_inputs(name)]
+    return [found for name in names for found in _find_inputs(name, takes_projects)]
 
 
-def _find_inputs(name: str) -> list[Input]:
+def _find_inputs(name: str, takes_projects: bool) -> list[Input]:
     try:
-        return [Input(path, _problem(path)) for path in matches(name)]
+        return [Input(path, _problem(path, takes_projects)) for path in matches(name)]
     except NoMatchError as error:
         return [Input(Path(name), error)]
 
 
-def _problem(path: Path) -> WrongUse | None:
+def _problem(path: Path, takes_projects: bool) -> WrongUse | None:
     try:
-        check_input(path)
+        check_input(path, takes_projects)
     except WrongUse as error:
         return error
     return None
@@ -104,8 +111,8 @@ def refuse_folder(path: Path, things: str, example: str) -> None:
         raise WrongUse(f"{path} is a folder; name the {things} in it, such as '{path / example}'")
 
 
-def check_input(path: Path) -> None:
-    """Raise `WrongUse` unless this is a readable file that is not empty."""
+def check_input(path: Path, takes_projects: bool = False) -> None:
+    """Raise `WrongUse` unless this is a readable file that is not empty, and no wrong project."""
     refuse_folder(path, "meshes", "*.ply")
     try:
         os.stat(path)
@@ -120,6 +127,9 @@ def check_input(path: Path) -> None:
         raise WrongUse(f"{path} can't be read: permission denied")
     if os.path.getsize(path) == 0:
         raise WrongUse(f"{path} is empty (0 bytes)")
+    if path.suffix.lower() in formats.PROJECTS and not (takes_projects and is_project(path)):
+        which = f"only {PROJECT} projects are read" if takes_projects else "it takes 'run' to read"
+        raise WrongUse(f"{path} is a project; {which}")
     _check_encoding(path)
 
 
@@ -167,6 +177,11 @@ class Output(NamedTuple):
         return Path(self.name)
 
     @property
+    def is_project(self) -> bool:
+        """Whether all layers are saved, with a project that names them."""
+        return is_project(self.path)
+
+    @property
     def has_placeholder(self) -> bool:
         """Whether the name depends on the input."""
         return any(field is not None for _, field, _, _ in _parsed(self.name))
@@ -211,7 +226,7 @@ def _parsed(pattern: str) -> list[tuple[str, str | None, str | None, str | None]
 
 
 def check_output(path: Path, force: bool) -> None:
-    """Raise before anything is computed if a mesh can't be saved at `path`.
+    """Raise before anything is computed if a mesh, or a project, can't be saved at `path`.
 
     `WrongUse` if the name, its format or its folder is wrong, or the file exists and `force` is
     false; `OSError` if the folder can't be written into.
@@ -219,9 +234,9 @@ def check_output(path: Path, force: bool) -> None:
     check_place(path, force)
     _check_encoding(path)
     ending = path.suffix.lstrip(".")
-    if path.suffix.lower() in formats.PROJECTS:
-        raise WrongUse(f"{path}: projects are not written; each layer can have an -o of its own")
-    if not ending or not formats.is_written(ending):
+    if path.suffix.lower() in formats.PROJECTS and not is_project(path):
+        raise WrongUse(f"{path} would be a project; only {PROJECT} projects are written")
+    if not (is_project(path) or (ending and formats.is_written(ending))):
         why = f"PyMeshLab writes no {path.suffix} files" if ending else "it has no ending"
         raise WrongUse(
             f"the format of {path} is unknown: {why}; there are {', '.join(formats.COMMON)}"

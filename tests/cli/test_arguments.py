@@ -69,6 +69,11 @@ def taken(line):
         ("-o a -om -s s.mlx", ["a"], "-s s.mlx"),
         ("-o a -om s.mlx", ["a"], "s.mlx"),
         ("-i a -- -om -p", [], "-i a -- -om -p"),
+        ("-p a.mlp -i b", [], "-i a.mlp --layers -i b"),
+        ("s.mlx --project=a.MLP", [], "s.mlx -i a.MLP --layers"),
+        ("-w b.mlp -o c -l 1", ["b.mlp", "c layer=1"], ""),
+        ("-m vc -wb.mlp -m vn", ["b.mlp vc vn"], ""),
+        ("--write-project b.mlp c.ply", ["b.mlp"], "c.ply"),
     ],
 )
 def test_outputs_with_their_masks_and_layers(line, outputs, rest):
@@ -99,6 +104,9 @@ def test_outputs_with_their_masks_and_layers(line, outputs, rest):
         ("-o a --layer", "--layer needs the layer to save: an index from 0, c "),
         ("-o a --layer -1", "--layer needs the layer to save: an index from 0, c "),
         ("-o", "Option '-o' requires an argument"),
+        ("-p", "Option '-p' requires an argument"),
+        ("-w -o a", "Option '-w' requires an argument"),
+        ("-w a.mlp -l 1", "a.mlp is a project, which has all layers; leave -l out"),
         ("-o -i a", "Option '-o' requires an argument"),
         ("-i -o a --force", "Option '-i' requires an argument"),
         ("-o a -m", "Option '-m' requires an argument"),
@@ -218,18 +226,3 @@ def test_every_combination_of_two_outputs(run):
         assert call(*run, *outputs, "--force").exit_code == 0
         sizes = [SIZES["square" if layer == "1" else "triangle"] for layer in (one, two)]
         assert [len(loaded(f"{name}.ply").vertices) for name in "ab"] == sizes
-
-
-@pytest.mark.parametrize(
-    ("option", "line"),
-    [
-        (["-i", "a.mlp"], "cannot read a.mlp: projects are not read; name their meshes after -i"),
-        (["-i", "cube.ply", "-o", "b.mlp"], "b.mlp: projects are not written; each layer can have"),
-    ],
-)
-def test_projects_are_refused(option, line):
-    cube_file()
-    Path("a.mlp").write_text("<!DOCTYPE MeshLabDocument>\n<MeshLabProject/>\n")
-    result = call("run", script_file(TAUBIN), *option)
-    assert result.exit_code in (1, 2)
-    assert result.stderr.startswith(f"Error: {line}")

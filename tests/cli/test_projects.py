@@ -1,0 +1,213 @@
+"""`run` on MeshLab's projects: layers with their labels, places and visibility, in and out."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pymeshlab
+import pytest
+
+from meshlab_willmore import batch
+
+from .conftest import FLIP, SAMPLES, call, cube_file, listing, loaded, same_mesh, script_file
+
+PLACE = np.array([[0, -1, 0, 0.1234567890123456], [1, 0, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1.0]])
+TEXTURED = SAMPLES / "bunny10k_textured.obj"
+
+
+def project_file(*layers, path="in.mlp"):
+    """A project of (file, label, is visible, matrix) layers."""
+    lines = ["<!DOCTYPE MeshLabDocument>", "<MeshLabProject>", " <MeshGroup>"]
+    for file, label, visible, matrix in layers:
+        lines.append(f'  <MLMesh label="{label}" filename="{file}" visible="{int(visible)}">')
+        rows = "\n".join(" ".join(map(repr, row)) for row in np.asarray(matrix).tolist())
+        lines += [f"   <MLMatrix44>\n{rows}\n</MLMatrix44>", "  </MLMesh>"]
+    lines += [" </MeshGroup>", " <RasterGroup/>", "</MeshLabProject>"]
+    Path(path).write_text("\n".join(lines), encoding="utf-8")
+    return Path(path)
+
+
+@pytest.fixture
+def project():
+    """A hidden layer in a folder that is moved, and another one."""
+    Path("meshes").mkdir()
+    cube_file("meshes/cube.ply")
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(SAMPLES / "bone.ply"))
+    ms.save_current_mesh("bone.ply")
+    return project_file(
+        ("meshes/cube.ply", "a &quot;b&quot; &lt;ü&gt;", False, PLACE),
+        ("bone.ply", "bone", True, np.eye(4)),
+    )
+
+
+def layers_of(path):
+    """What PyMeshLab reads of a project."""
+    ms = pymeshlab.MeshSet()
+    ms.load_project(str(Path(path).absolute()))
+    return [
+        (
+            mesh.label(),
+            mesh.is_visible(),
+            mesh.vertex_matrix().tobytes(),
+            mesh.face_matrix().tobytes(),
+            mesh.transform_matrix().astype(np.float32).tobytes(),
+        )
+        for mesh in ms
+    ]
+
+
+def test_layers_keep_mesh_label_place_and_visibility(project):
+    before = listing()
+    result = call("run", "-p", project, "-w", "out.mlp")
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert result.stdout.startswith("in.mlp -> out.mlp (1886 vertices, 3046 faces): converted, ")
+    assert listing() == sorted([*before, "out.mlp", "out_0.ply", "out_1.ply"])
+    assert layers_of("out.mlp") == layers_of(project)
+    assert [layer[:2] for layer in layers_of("out.mlp")] == [('a "b" <ü>', False), ("bone", True)]
+    # Which PyMeshLab would round.
+    assert "0.0 -1.0 0.0 0.1234567890123456\n" in Path("out.mlp").read_text(encoding="utf-8")
+
+
+def test_steps_are_for_the_first_layer_and_others_stay(project):
+    assert call("run", script_file(FLIP), "-p", project, "-w", "out.mlp").exit_code == 0
+    call("flip", "meshes/cube.ply", "flipped.ply")
+    assert same_mesh("out_0.ply", "flipped.ply")
+    assert same_mesh("out_1.ply", "bone.ply")
+    assert [layer[0] for layer in layers_of("out.mlp")] == ['a "b" <ü>', "bone"]
+
+
+def test_inputs_are_further_layers_and_outputs_single_ones(project):
+    cube_file("more.ply")
+    result = call(
+        "run", "-p", project, "-i", "more.ply", "-w", "out.mlp", "-o", "one.off", "-l", "1"
+    )
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert [layer[0] for layer in layers_of("out.mlp")][2] == "more.ply"
+    assert same_mesh("out_2.ply", "more.ply")
+    assert len(loaded("one.off").faces) == 3022
+    call("run", "-i", "more.ply", "-w", "single.mlp")
+    assert [layer[0] for layer in layers_of("single.mlp")] == ["more.ply"]
+
+
+def test_masks_and_forms_are_for_all_layers(project):
+    call("run", "-p", project, "-w", "out.mlp", "-m", "vn", "--ascii", "--single")
+    for name in ("out_0.ply", "out_1.ply"):
+        header = Path(name).read_bytes().partition(b"end_header")[0]
+        assert b"format ascii" in header
+        assert b"property float nx" in header
+
+
+def test_textures_of_layers_are_copied_once():
+    Path("textured").mkdir()
+    call("run", "-i", TEXTURED, "-o", "textured/a.obj")
+    layer = ("textured/a.obj", "a", True, np.eye(4))
+    result = call("run", "-p", project_file(layer, layer), "-w", "out.mlp")
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert listing() == [
+        "TextureDouble_A.png",
+        "in.mlp",
+        "out.mlp",
+        "out_0.ply",
+        "out_1.ply",
+        "textured",
+    ]
+
+
+@pytest.mark.parametrize("name", ["out.mlp", "out_1.ply"])
+def test_no_file_is_replaced_without_force(project, name):
+    Path(name).write_text("mine")
+    result = call("run", "-p", project, "-w", "out.mlp")
+    assert result.exit_code in (1, 2)
+    assert f"{name} already exists; use --force to overwrite" in result.stderr
+    assert Path(name).read_text() == "mine"
+    assert (name == "out.mlp") == Path("out.mlp").exists()
+    assert call("run", "-p", project, "-w", "out.mlp", "--force").exit_code == 0
+    assert layers_of("out.mlp") == layers_of(project)
+
+
+def test_projects_are_a_batch(project):
+    project_file(("bone.ply", "b", True, np.eye(4)), path="other.mlp")
+    project_file(("none.ply", "n", True, np.eye(4)), path="wrong.mlp")
+    Path("out").mkdir()
+    arguments = ("run", "-i", "*.mlp", "-w", "out/{name}.mlp", "--json", "log.jsonl")
+    result = call(*arguments)
+    assert result.exit_code == 1
+    assert "Error: cannot read wrong.mlp: there is no file none.ply" in result.stderr
+    assert layers_of("out/in.mlp") == layers_of(project)
+    assert len(layers_of("out/other.mlp")) == 1
+    # A batch sees that a mesh of a project has changed.
+    call("run", "-i", SAMPLES / "bone.ply", "-o", "meshes/cube.ply", "--force")
+    result = call(*arguments, "--resume", "--force")
+    records = [json.loads(line) for line in Path("log.jsonl").read_text().splitlines()]
+    done = [record["input"] for record in records if record.get("status") == "done"]
+    assert sorted(done) == ["in.mlp", "in.mlp", "other.mlp"]
+    assert len(loaded("out/in_0.ply").faces) == 3022
+
+
+def test_python_function_takes_projects(project):
+    (result,) = batch.run(lambda ms: ms.mesh_number(), project, "{name}_out.mlp")
+    assert result.is_done
+    assert [step.returned for step in result.returned] == [{"value": 2}]
+    assert layers_of("in_out.mlp") == layers_of(project)
+
+
+def test_dry_run_reads_and_writes_nothing(project):
+    before = listing()
+    result = call("run", "-p", project, "-w", "out.mlp", "--dry-run")
+    assert result.stdout == "in.mlp: ok; 0 steps to run, then out.mlp to write\n"
+    Path("bone.ply").write_text("no mesh")
+    result = call("run", "-p", project, "-w", "out.mlp", "--dry-run")
+    assert result.stderr == "Error: cannot read bone.ply: Header not found\n"
+    assert listing() == before
+
+
+def test_log_names_the_layers(project):
+    call("run", "-p", project, "-w", "out.mlp", "--log", "log.txt")
+    text = Path("log.txt").read_text()
+    assert "input in.mlp (2 layers)\n" in text
+    assert "output out.mlp out_0.ply out_1.ply (2 layers)\n" in text
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("no project", "it is no project, "),
+        ("<MeshLabProject/>", "there is no mesh in it"),
+        ('<P><MLMesh label="l"/></P>', "its layer 'l' has no file"),
+        (
+            '<P><MLMesh filename="f.ply"><MLMatrix44>1 0 0</MLMatrix44></MLMesh></P>',
+            "the matrix of f.ply is not 16 numbers",
+        ),
+        ('<P><MLMesh filename="f.ply"/></P>', "there is no file f.ply"),
+        ('<P><MLMesh filename="in.mlp"/></P>', "in.mlp is a project; "),
+        (
+            '<!DOCTYPE a [<!ENTITY b "c">]><P><MLMesh filename="&b;"/></P>',
+            "it is no project, ",
+        ),
+    ],
+)
+def test_what_is_no_project(text, problem):
+    Path("in.mlp").write_text(text)
+    result = call("run", "-p", "in.mlp", "-w", "out.mlp")
+    assert result.exit_code == 1
+    assert result.stderr.startswith(f"Error: cannot read in.mlp: {problem}")
+    assert result.stderr.count("\n") == 1
+    assert listing() == ["in.mlp"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        (["flip", "in.mlp", "a.ply"], "in.mlp is a project; it takes 'run' to read"),
+        (["measure", "in.mlp"], "in.mlp is a project; it takes 'run' to read"),
+        (["flip", "bone.ply", "a.mlp"], "a.mlp would be a project; only run writes projects"),
+        (["run", "-i", "in.aln", "-o", "a.ply"], "in.aln is a project; only .mlp projects are"),
+    ],
+)
+@pytest.mark.usefixtures("project")
+def test_only_run_takes_projects(arguments, line):
+    Path("in.aln").write_text("1")
+    result = call(*arguments)
+    assert result.exit_code in (1, 2)
+    assert result.stderr.startswith(f"Error: {line}")

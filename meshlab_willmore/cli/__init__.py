@@ -10,6 +10,7 @@ import click
 from .._version import __version__
 from . import (
     compare,
+    completion,
     convert,
     demo,
     doctor,
@@ -62,6 +63,7 @@ for module in (
     convert,
     doctor,
     warmup,
+    completion,
     demo,
 ):
     main.add_command(module.command)

@@ -29,6 +29,7 @@ from .arguments import (
     json_option,
 )
 from .compare_row import Comparison, Outcome, Pages, check_reference
+from .completion import files
 from .errors import debug_option, is_debug
 from .reports import Reports, check_reports, report_option
 from .text import wrapped_table
@@ -111,7 +112,7 @@ def _time_limit(_: click.Context, __: click.Parameter, seconds: float) -> float:
     short_help="Compare presets, energies, searches and MeshLab's flips.",
     epilog=EXAMPLES,
 )
-@click.argument("source", metavar="IN")
+@click.argument("source", metavar="IN", shell_complete=files)
 @_row_option(PRESET)
 @_row_option(SEARCH)
 @_row_option(ENERGY)
@@ -119,6 +120,7 @@ def _time_limit(_: click.Context, __: click.Parameter, seconds: float) -> float:
 @click.option(
     "--reference",
     metavar="SURFACE",
+    shell_complete=files,
     help="The surface that the mesh approximates: a mesh file, sphere, sphere:RADIUS or "
     "torus:RING,TUBE (radii; around the origin, the torus' axis is z). Adds the mean angle between "
     "the normals of faces and those of the reference nearest to their centroids, and the root mean "

@@ -11,6 +11,7 @@ import click
 from ..files import is_stream, write
 from ..mesh_files.paths import check_place
 from .arguments import force_option
+from .completion import scripts
 from .errors import debug_option
 from .scripts import STANDARD_STREAM, read_script
 
@@ -26,7 +27,7 @@ Examples:
 
 
 @click.command("convert", short_help="Rewrite a script in today's form.", epilog=EXAMPLES)
-@click.argument("source", metavar="SCRIPT")
+@click.argument("source", metavar="SCRIPT", shell_complete=scripts)
 @click.argument("target", metavar="OUT", type=click.Path(path_type=Path))
 @click.option(
     "--meshlab", is_flag=True, help="Leave out the steps that MeshLab's window does not have."

@@ -96,7 +96,9 @@ class OneLineErrors(click.Group):
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Read the options before the command's name."""
         with _usage_errors_in_one_line():
-            _refuse_old_form(args)
+            # A shell that completes words gets no message.
+            if not ctx.resilient_parsing:
+                _refuse_old_form(args)
             return super().parse_args(ctx, args)
 
     def invoke(self, ctx: click.Context) -> Any:

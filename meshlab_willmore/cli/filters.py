@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..messages import WrongUse
+from .completion import filters
 from .errors import debug_option
 from .step_text import defaults, script_with
 from .text import WIDTH
@@ -29,7 +30,7 @@ _NAME_WIDTH = 42
 
 
 @click.command("filters", short_help="List filters, or explain one.", epilog=EXAMPLES)
-@click.argument("name", required=False, nargs=-1)
+@click.argument("name", required=False, nargs=-1, shell_complete=filters)
 @click.option("--mlx", is_flag=True, help="Print the filter NAME as a step of a script.")
 @debug_option
 def command(name: tuple[str, ...], mlx: bool) -> None:

@@ -22,6 +22,7 @@ from .arguments import (
     mask_option,
 )
 from .batch import batch_options, is_batch, json_file_option, planned, run_batch
+from .completion import files
 from .errors import debug_option
 from .reports import report_option
 from .text import flip_results
@@ -44,8 +45,8 @@ Examples:
 
 
 @click.command("flip", cls=SeveralParts, short_help="Flip the edges of meshes.", epilog=EXAMPLES)
-@click.argument("sources", metavar="IN...", nargs=-1, required=True)
-@click.argument("target", metavar="OUT")
+@click.argument("sources", metavar="IN...", nargs=-1, required=True, shell_complete=files)
+@click.argument("target", metavar="OUT", shell_complete=files)
 @flip_options()
 @mask_option()
 @form_options

@@ -9,6 +9,7 @@ import click
 
 from ..mesh_files.paths import matches, refuse_folder
 from ..messages import WrongUse, counted
+from .completion import files
 from .errors import debug_option, with_commands
 from .scripts import STANDARD_STREAM, read_script
 
@@ -24,7 +25,7 @@ Examples:
 
 
 @click.command("lint", short_help="Check filter scripts.", epilog=EXAMPLES)
-@click.argument("scripts", metavar="SCRIPT...", nargs=-1, required=True)
+@click.argument("scripts", metavar="SCRIPT...", nargs=-1, required=True, shell_complete=files)
 @debug_option
 def command(scripts: tuple[str, ...]) -> None:
     """Check filter scripts without running them: one line for each error and each warning.

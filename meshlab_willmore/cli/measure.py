@@ -18,6 +18,7 @@ from ..mesh_files.paths import find_inputs
 from ..messages import WrongUse, one_line, reason
 from . import progress
 from .batch import RECORDS, batch_options, given_options, is_batch, planned, run_batch
+from .completion import files
 from .errors import debug_option, failure_of, is_debug
 from .scripts import STANDARD_STREAM
 from .text import fitted, table
@@ -63,7 +64,7 @@ class _OptionalFile(click.Command):
 @click.command(
     "measure", cls=_OptionalFile, short_help="Print the totals of meshes.", epilog=EXAMPLES
 )
-@click.argument("files", metavar="IN...", nargs=-1, required=True)
+@click.argument("files", metavar="IN...", nargs=-1, required=True, shell_complete=files)
 @click.option(
     "--json",
     "json_file",

@@ -21,6 +21,7 @@ from ..signals import killable
 from . import progress, runlog
 from .arguments import LAYER_HELP, force_option, form_options, mask_option, take_outputs
 from .batch import batch_options, is_batch, json_file_option, planned, run_batch
+from .completion import files, scripts
 from .errors import debug_option
 from .reports import report_option
 from .scripts import Script, read_script
@@ -79,7 +80,13 @@ class RunCommand(click.Command):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Read the outputs, then let click read the rest."""
-        ctx.obj, rest = take_outputs(args, ctx)
+        try:
+            ctx.obj, rest = take_outputs(args, ctx)
+        except (WrongUse, click.ClickException):
+            if not ctx.resilient_parsing:
+                raise
+            # A shell completes a line that is not whole yet.
+            ctx.obj, rest = [], args
         return super().parse_args(ctx, rest)
 
 
@@ -95,7 +102,7 @@ def _only_once(_: click.Context, option: click.Parameter, values: Sequence[str])
 @click.command(
     "run", cls=RunCommand, short_help="Run a filter script, or convert.", epilog=EXAMPLES
 )
-@click.argument("script", required=False, metavar="[SCRIPT.mlx]")
+@click.argument("script", required=False, metavar="[SCRIPT.mlx]", shell_complete=scripts)
 @click.option(
     "-s",
     "--script",
@@ -103,6 +110,7 @@ def _only_once(_: click.Context, option: click.Parameter, values: Sequence[str])
     multiple=True,
     callback=_only_once,
     metavar="FILE",
+    shell_complete=scripts,
     help="The script, as in meshlabserver.",
 )
 @click.option(
@@ -111,6 +119,7 @@ def _only_once(_: click.Context, option: click.Parameter, values: Sequence[str])
     "inputs",
     multiple=True,
     metavar="FILE...",
+    shell_complete=files,
     help="Meshes, or quoted patterns such as 'scans/*.ply'.",
 )
 @click.option(
@@ -119,6 +128,7 @@ def _only_once(_: click.Context, option: click.Parameter, values: Sequence[str])
     "output",
     expose_value=False,
     metavar="FILE...",
+    shell_complete=files,
     help="The output file; its ending determines the format. For several inputs, use a name with "
     f"placeholders: {_PLACEHOLDERS}.",
 )
@@ -127,6 +137,7 @@ def _only_once(_: click.Context, option: click.Parameter, values: Sequence[str])
     "--project",
     expose_value=False,
     metavar="IN.mlp",
+    shell_complete=files,
     help="A MeshLab project, whose meshes become layers; -i adds more of them.",
 )
 @click.option(
@@ -134,6 +145,7 @@ def _only_once(_: click.Context, option: click.Parameter, values: Sequence[str])
     "--write-project",
     expose_value=False,
     metavar="OUT.mlp",
+    shell_complete=files,
     help="Save all layers, as OUT_0.ply, OUT_1.ply and so on, and a project that names them.",
 )
 @mask_option(expose_value=False)
@@ -150,6 +162,7 @@ def _only_once(_: click.Context, option: click.Parameter, values: Sequence[str])
     multiple=True,
     callback=_only_once,
     metavar="FILE",
+    shell_complete=files,
     help="Append what each step did to this file; - for the terminal. An -l before every -o means "
     "the same.",
 )

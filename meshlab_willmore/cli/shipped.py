@@ -13,6 +13,7 @@ from .. import files
 from ..mesh_files.paths import check_place
 from ..messages import WrongUse
 from .arguments import force_option
+from .completion import shipped
 from .errors import debug_option
 from .scripts import shipped_scripts
 from .text import WIDTH
@@ -29,7 +30,7 @@ _INDENT = "    "
 
 
 @click.command("scripts", short_help="List or copy the shipped scripts.", epilog=EXAMPLES)
-@click.argument("names", metavar="[NAME...]", nargs=-1)
+@click.argument("names", metavar="[NAME...]", nargs=-1, shell_complete=shipped)
 @click.option(
     "--copy",
     "folder",

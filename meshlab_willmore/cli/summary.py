@@ -13,6 +13,7 @@ from ..batch.summary import Summary
 from ..mesh_files.paths import matches
 from ..messages import WrongUse
 from .arguments import json_option
+from .completion import files
 from .errors import debug_option
 
 EXAMPLES = """\b
@@ -23,7 +24,7 @@ Examples:
 
 
 @click.command("summary", short_help="Summarise records of batches.", epilog=EXAMPLES)
-@click.argument("files", metavar="FILE.jsonl...", nargs=-1, required=True)
+@click.argument("files", metavar="FILE.jsonl...", nargs=-1, required=True, shell_complete=files)
 @json_option
 @debug_option
 def command(files: tuple[str, ...], as_json: bool) -> None:

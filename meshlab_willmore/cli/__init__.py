@@ -17,6 +17,7 @@ from . import (
     filters,
     flip,
     lint,
+    manual,
     measure,
     run,
     shipped,
@@ -64,6 +65,7 @@ for module in (
     doctor,
     warmup,
     completion,
+    manual,
     demo,
 ):
     main.add_command(module.command)

@@ -122,7 +122,7 @@ def program(tmp_path, monkeypatch):
     [
         (["filters", "Willmore\\ f"], ["Willmore flipping optimization"]),
         (["filters", "'Willmore f"], ["Willmore flipping optimization"]),
-        (["filters", "Transform:\\ Translate"], ["Transform: Translate, Center, set Origin"]),
+        (["filters", "Transform:\\ Translate,"], ["Transform: Translate, Center, set Origin"]),
         (["flip", "--search", "va"], ["variable-depth"]),
     ],
 )

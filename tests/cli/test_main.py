@@ -2,6 +2,7 @@
 
 import errno
 import os
+import re
 import shlex
 import subprocess
 import sys
@@ -76,7 +77,7 @@ def test_help_fits_80_columns(name):
 @pytest.mark.parametrize("name", COMMANDS)
 def test_examples_are_valid_commands(name):
     for line in examples(run(name, "--help").stdout):
-        words = shlex.split(line.partition(">")[0])[2:]
+        words = shlex.split(re.split("[>|]", line)[0])[2:]
         if "--help" not in words:
             command = main.commands[name]
             command.make_context(name, words, parent=click.Context(main, **main.context_settings))

@@ -29,8 +29,8 @@ def test_page_has_all_commands_options_and_examples():
                     heads = re.findall(r"\n\.TP\n\.B (.*)", sections[name])
                     assert any(set(param.opts) <= set(re.split("[ ,]+", head)) for head in heads)
                     assert " ".join((param.help or "").split()) in sections[name]
-        for example in command.epilog.split("\n")[2:]:
-            assert f"{example}\n" in f"{sections[name]}\n"
+        for line in command.epilog.splitlines():
+            assert line == "\b" or f"\n{line}\n" in sections[name]
     assert ".TH " in page.splitlines()[0]
 
 

@@ -30,7 +30,7 @@ def test_page_has_all_commands_options_and_examples():
                     assert any(set(param.opts) <= set(re.split("[ ,]+", head)) for head in heads)
                     assert " ".join((param.help or "").split()) in sections[name]
         for line in command.epilog.splitlines():
-            assert line == "\b" or f"\n{line}\n" in sections[name]
+            assert line in ("", "\b") or f"\n{line}\n" in sections[name]
     assert ".TH " in page.splitlines()[0]
 
 

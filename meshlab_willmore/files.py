@@ -24,7 +24,9 @@ _KINDS: tuple[tuple[Callable[[int], bool], str], ...] = (
 _STREAMS = ("a pipe", "a device")
 # Names of this process' own descriptors. Opened again, a file behind them would be written from its
 # beginning.
-_OWN = re.compile(r"/dev/(?:fd/(?P<number>\d+)|stdout|(?P<error>stderr))")
+_OWN = re.compile(r"[/\\]dev[/\\](?:fd[/\\](?P<number>\d+)|stdout|(?P<error>stderr))")
+# The standard output, on all systems.
+STANDARD_OUTPUT = Path("/dev/stdout")
 
 # Ends the names of hidden folders beside outputs: what a killed process left can be told by it.
 draft_mark = ""

@@ -8,7 +8,14 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ..files import writable_folder
-from ..mesh_files.paths import Input, NoMatchError, Output, check_output, check_place
+from ..mesh_files.paths import (
+    Input,
+    NoMatchError,
+    Output,
+    check_format,
+    check_output,
+    check_place,
+)
 from ..mesh_files.projects import files_of
 from ..messages import WrongUse
 from .shards import Shard
@@ -57,31 +64,47 @@ def plan(
     force: bool,
     shard: Shard | None = None,
     page: Output | None = None,
+    makes_folders: bool = True,
 ) -> list[Job]:
     """Divide inputs and outputs into jobs, and check every output as `check_output` does.
 
-    Folders with a placeholder in their name are made. An input that can't be read has a job without
-    outputs; the others go on. Only the jobs of the shard are returned, and only their files
-    checked: those of other shards may have been written already. Each job has a report page if one
-    is given. Raises `WrongUse` if inputs and outputs don't fit together.
+    Folders with a placeholder in their name are made, if that is wanted. An input that can't be
+    read has a job without outputs; the others go on. Only the jobs of the shard are returned, and
+    only their files checked: those of other shards may have been written already. Each job has a
+    report page if one is given. Raises `WrongUse` if inputs and outputs don't fit together.
     """
     planned = list(_jobs(inputs, outputs, layers, page))
     _check_distinct(planned, [path for path, _ in inputs] if len(planned) > 1 else ())
     jobs = [job for job in planned if shard is None or shard.has(job.name)]
     for job in jobs:
         for output, pattern in zip(job.outputs, outputs, strict=False):
-            if "{" in os.path.dirname(pattern.name):
-                _make_folder(job, output.path, _fixed_part(pattern.name))
-            check_output(output.path, force)
+            if _has_folder(job, output.path, pattern, makes_folders):
+                check_output(output.path, force)
+            else:
+                check_format(output.path)
         if page is not None and job.page is not None:
-            if "{" in os.path.dirname(page.name):
-                _make_folder(job, job.page, _fixed_part(page.name))
-            check_place(job.page, force, "{name}.html")
+            if _has_folder(job, job.page, page, makes_folders):
+                check_place(job.page, force, "{name}.html")
     return jobs
 
 
-def _make_folder(job: Job, path: Path, fixed: Path) -> None:
-    """Make the folder of an output in the folder `fixed`; raises `WrongUse` if it is elsewhere."""
+def _has_folder(job: Job, path: Path, pattern: Output, makes_folders: bool) -> bool:
+    """Make the folder of an output, if that is wanted; return whether it is there."""
+    if "{" not in os.path.dirname(pattern.name):
+        return True
+    fixed = _fixed_part(pattern.name)
+    _check_folder(job, path, fixed)
+    if fixed.is_dir() and makes_folders:
+        writable_folder(path.parent)
+    elif fixed.is_dir() and not path.parent.exists():
+        # It would be made.
+        writable_folder(fixed)
+        return False
+    return True
+
+
+def _check_folder(job: Job, path: Path, fixed: Path) -> None:
+    """Raise `WrongUse` unless the folder of an output is in the folder `fixed`."""
     if not fixed.exists():
         raise WrongUse(f"cannot write {path}: the folder {fixed} does not exist")
     # Without such a folder, as in {dir}/{name}_clean.ply, outputs are beside their inputs.
@@ -93,8 +116,6 @@ def _make_folder(job: Job, path: Path, fixed: Path) -> None:
             f"the result of {job.name} would be written to {path}, outside of {fixed}; name the "
             "inputs with their whole paths, or start in a folder above them"
         )
-    if fixed.is_dir():
-        writable_folder(path.parent)
 
 
 def _fixed_part(pattern: str) -> Path:

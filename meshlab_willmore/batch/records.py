@@ -276,13 +276,13 @@ def check(path: Path, is_continued: bool, force: bool) -> None:
     """Raise `WrongUse` if no records can be written to the file, or it has some already."""
     if path.is_dir():
         raise WrongUse(f"{path} is a folder; name a file in it, such as '{path / 'log.jsonl'}'")
-    if not path.parent.is_dir():
-        raise WrongUse(f"cannot write {path}: the folder {path.parent} does not exist")
     if is_stream(path):
         # Nothing can be read there: a pipe would be waited for, and a device may have no end.
         if is_continued:
             raise WrongUse(f"{path} is no file, so no batch can go on from it; name a file")
         return
+    if not path.parent.is_dir():
+        raise WrongUse(f"cannot write {path}: the folder {path.parent} does not exist")
     if not path.exists():
         return
     read(path)

@@ -90,7 +90,9 @@ def failure(result: Result) -> str:
         return f"{text} ({result.input} is left out)"
     if result.step and result.status not in (ERROR, BAD_FILE):
         text = f"{result.step}: {text}"
-    return text if result.input in text else f"{result.input}: {text}"
+    # A reason has a blank in place of each line break of a name.
+    names = (result.input, " ".join(result.input.split()))
+    return text if any(name in text for name in names) else f"{result.input}: {text}"
 
 
 def duration(seconds: float) -> str:

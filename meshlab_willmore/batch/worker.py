@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import os
 import pickle
+import re
 import shutil
 import signal
 import threading
@@ -17,8 +18,13 @@ from .. import files, machine, memory
 from ..messages import reason
 from .process import BEGUN, DONE, ERROR, LENGTH, MEMORY, Ended, Task, WorkerSettings, framed
 
-# What C++ code says of a failed allocation.
+# What C++ code says of a failed allocation; and, where addresses are limited, what else fails for
+# lack of them: threads, and libraries (llvmlite has its own words for those).
 _NO_MEMORY = "bad_alloc"
+_NO_ADDRESSES = re.compile(
+    r"[Cc]annot allocate memory|failed to map segment|can't start new thread"
+    r"|Could not (?:find/)?load shared object"
+)
 
 
 def main() -> None:
@@ -96,10 +102,22 @@ def _ended(task: Task, settings: WorkerSettings, answers: int) -> Ended:
     return Ended(DONE, value, memory=memory.peak())
 
 
+def _is_memory(error: BaseException | None, is_limited: bool) -> bool:
+    """Whether an error, or one that it came from, is for lack of memory."""
+    while error is not None:
+        text = str(error)
+        if isinstance(error, MemoryError) or _NO_MEMORY in text:
+            return True
+        if is_limited and _NO_ADDRESSES.search(text):
+            return True
+        error = error.__cause__ or error.__context__
+    return False
+
+
 def _failed(error: Exception, limit: int | None) -> Ended:
-    fault = machine.fault_of(error)
+    is_memory = _is_memory(error, limit is not None)
+    fault = None if is_memory else machine.fault_of(error)
     text = reason(fault or error)
-    is_memory = isinstance(error, MemoryError) or _NO_MEMORY in text
     if is_memory and limit is not None:
         text = f"needs more than the memory limit of {limit / memory.GIB:.3g} GiB"
     return Ended(
@@ -107,5 +125,5 @@ def _failed(error: Exception, limit: int | None) -> Ended:
         reason=text,
         trace=traceback.format_exc(),
         of_machine=fault is not None,
-        stops_all=machine.stops_all(error),
+        stops_all=not is_memory and machine.stops_all(error),
     )

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import deque
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +17,8 @@ import click
 from ..mesh_files.formats import MANNERS, PARTS
 from ..mesh_files.paths import PROJECT, Output, is_project
 from ..messages import WrongUse, reason
-from ..options import FILTER, OPTIONS, Length, Option
+from ..options import FILTER, OPTIONS, PRESET, Length, Option
+from ..presets import PRESETS
 from .scripts import is_script
 
 LAYER_HELP = "an index from 0, c for the current layer, or x for the last one"
@@ -169,6 +170,22 @@ def check_flip_options(given: dict[str, Any]) -> None:
     for name in given:
         if name in barred:
             raise WrongUse(f"--{name}: {barred[name]}")
+
+
+def overruled_defaults(given: dict[str, Any]) -> Iterator[str]:
+    """What to say of defaults that are given, but that the preset has other values in place of.
+
+    The filter gets all values, and can't know which were given.
+    """
+    preset = given.get(PRESET.name, PRESET.default)
+    own = {name for one in PRESETS[preset].passes for name in one.defaults}
+    for option in OPTIONS:
+        if option.name in own and given.get(option.name) == option.default:
+            yield (
+                f"--{option.name} {option.default:g} is the default, in place of which the preset "
+                f"{preset!r} has its own in all passes but the last; for this one in all, give it "
+                "a little less or more"
+            )
 
 
 def is_part(word: str) -> bool:

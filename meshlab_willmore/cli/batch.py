@@ -16,11 +16,13 @@ from ..batch.jobs import Job, plan
 from ..batch.shards import shard_of
 from ..batch.steplog import log
 from ..batch.summary import Summary, duration, failure
+from ..files import STANDARD_OUTPUT
 from ..messages import WrongUse, note
 from . import progress
 from .errors import is_debug
 from .reports import Reports, check_reports, chosen_reports
-from .text import how_many_failed
+from .scripts import STANDARD_STREAM
+from .text import how_many_failed, printable
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -38,6 +40,12 @@ _KIB = 1024
 RECORDS = ".jsonl"
 # Between looks at what workers do.
 _SECONDS = 0.5
+
+
+def _log_file(ctx: click.Context, option: click.Parameter, value: Path | None) -> None:
+    """Keep the file of ``--json``, which may be the standard output."""
+    is_standard = str(value) == STANDARD_STREAM
+    _remember(ctx, option, STANDARD_OUTPUT if is_standard else value)
 
 
 def _remember(ctx: click.Context, option: click.Parameter, value: Any) -> None:
@@ -96,12 +104,15 @@ _OPTIONS = (
     _option("--scheduler", metavar="ADDRESS", help="Run on the Dask cluster of this scheduler."),
     _option("--summary", is_flag=True, help="Print a summary; on a terminal it comes anyway."),
 )
-json_file_option = _option(
+json_file_option = click.option(
     "--json",
     "log",
     type=click.Path(path_type=Path),
+    expose_value=False,
+    callback=_log_file,
     metavar="FILE.jsonl",
-    help="Write a line of JSON for each mesh as it ends: outcome, time, memory, measures.",
+    help="Write a line of JSON for each mesh as it ends: outcome, time, memory, measures. - prints "
+    "these lines, and no others.",
 )
 
 
@@ -124,7 +135,11 @@ def is_resumed() -> bool:
 
 
 def planned(
-    inputs: Sequence[Input], outputs: Sequence[Output], layers: bool, force: bool
+    inputs: Sequence[Input],
+    outputs: Sequence[Output],
+    layers: bool,
+    force: bool,
+    dry_run: bool = False,
 ) -> list[Job]:
     """The jobs of a command, or those of its shard; see `meshlab_willmore.batch.jobs.plan`."""
     given = given_options()
@@ -132,7 +147,7 @@ def planned(
     reports = check_reports(len(inputs) > 1 and not layers, force or is_resumed())
     if reports != Reports() and not inputs:
         raise WrongUse("--report shows a mesh before and after, and there is no input")
-    return plan(inputs, outputs, layers, force or is_resumed(), shard, reports.page)
+    return plan(inputs, outputs, layers, force or is_resumed(), shard, reports.page, not dry_run)
 
 
 def is_batch(jobs: Sequence[object]) -> bool:
@@ -160,7 +175,8 @@ def run_batch(
     table = None if recipe.dry_run else chosen_reports().table
     recipe = recipe._replace(is_pictured=table is not None)
     shown: list[Result] = []
-    is_shown = is_listed or not sys.stdout.isatty()
+    prints_json = given.get("log") == STANDARD_OUTPUT
+    is_shown = is_listed or not (sys.stdout.isatty() or prints_json)
     with ExitStack() as stack:
         options = _options(given, force, stack)
         batch = stack.enter_context(closing(Batch(recipe, jobs, options)))
@@ -187,10 +203,11 @@ def run_batch(
             if result.trace and is_debug():
                 click.echo(result.trace, err=True)
             if options.stop:
-                raise click.ClickException(failure(result))
+                raise click.ClickException(printable(failure(result)))
             _report(result)
-    if "summary" in given or sys.stdout.isatty():
-        click.echo("\n".join(summary.lines()))
+    if "summary" in given or (sys.stdout.isatty() and not prints_json):
+        # The standard output is for the records only.
+        click.echo("\n".join(map(printable, summary.lines())), err=prints_json)
     if summary.failed == len(jobs) == 1:
         click.get_current_context().exit(1)
     if summary.failed:
@@ -240,7 +257,7 @@ def _write_table(*given: Any) -> None:
 
 def _report(result: Result) -> None:
     if not result.is_done:
-        click.echo(f"Error: {failure(result)}", err=True)
+        click.echo(f"Error: {printable(failure(result))}", err=True)
 
 
 def _log(result: Result) -> None:

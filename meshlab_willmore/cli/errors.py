@@ -19,6 +19,7 @@ from .. import machine
 from ..messages import WrongUse, notes_taken_by, one_line
 from ..mlx.steps import ScriptError
 from ..signals import ENDING, handled_by
+from .text import printable
 
 DOCTOR = " ('meshlab-willmore doctor' shows what is missing)"
 
@@ -107,7 +108,7 @@ class OneLineErrors(click.Group):
             stopped_by_signals(ctx),
             _usage_errors_in_one_line(),
             _warnings_as_notes(),
-            notes_taken_by(lambda text: click.echo(f"Note: {text}", err=True)),
+            notes_taken_by(lambda text: click.echo(f"Note: {printable(text)}", err=True)),
         ):
             try:
                 return super().invoke(ctx)

@@ -10,7 +10,7 @@ import click
 from ..batch.jobs import Job
 from ..mesh_files import loading
 from ..mesh_files.paths import Output, find_inputs
-from ..messages import WrongUse, notes_kept, reason
+from ..messages import WrongUse, note, notes_kept, reason
 from ..options import FILTER
 from . import progress
 from .arguments import (
@@ -20,12 +20,13 @@ from .arguments import (
     force_option,
     form_options,
     mask_option,
+    overruled_defaults,
 )
 from .batch import batch_options, is_batch, json_file_option, planned, run_batch
 from .completion import files
 from .errors import debug_option
 from .reports import report_option
-from .text import flip_results
+from .text import flip_results, printable
 
 if TYPE_CHECKING:
     import pymeshlab
@@ -74,6 +75,8 @@ def command(
     """
     chosen = {name: value for name, value in given.items() if value is not None}
     check_flip_options(chosen)
+    for text in overruled_defaults(chosen):
+        note(text)
     inputs = find_inputs(sources)
     output = Output(target, parts, is_text=as_text, is_single=single)
     if len(inputs) > 1 and not output.has_placeholder:
@@ -127,7 +130,8 @@ def _flip(job: Job, given: dict[str, Any], force: bool) -> Result:
 def _line(result: Result, job: Job) -> str:
     (returned,) = (step.returned for step in result.returned)
     target = job.outputs[0].path
-    return f"{job.name} -> {target}: {flip_results(returned)}, {returned['seconds']:.1f} s"
+    line = f"{job.name} -> {target}: {flip_results(returned)}, {returned['seconds']:.1f} s"
+    return printable(line)
 
 
 def _flipped(ms: pymeshlab.MeshSet, path: Path, given: dict[str, Any]) -> dict[str, Any]:

@@ -51,14 +51,15 @@ class _OptionalFile(click.Command):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Give ``--json`` its value."""
-        rest = list(args)
-        for place, word in enumerate(args):
-            if word == "--":
-                break
-            following = args[place + 1] if place + 1 < len(args) else ""
+        end = args.index("--") if "--" in args else len(args)
+        rest: list[str] = []
+        for place, word in enumerate(args[:end]):
+            before, following = ["", *args][place], [*args, ""][place + 1]
             if word == "--json" and not following.endswith(RECORDS):
-                rest[place] = f"--json={STANDARD_STREAM}"
-        return super().parse_args(ctx, rest)
+                rest.append(f"--json={STANDARD_STREAM}")
+            elif (before, word) != ("--json", STANDARD_STREAM):
+                rest.append(word)
+        return super().parse_args(ctx, [*rest, *args[end:]])
 
 
 @click.command(

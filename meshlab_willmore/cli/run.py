@@ -25,7 +25,7 @@ from .completion import files, scripts
 from .errors import debug_option
 from .reports import report_option
 from .scripts import Script, read_script
-from .text import saved_text, step_results
+from .text import printable, saved_text, step_results
 
 if TYPE_CHECKING:
     import pymeshlab
@@ -229,7 +229,7 @@ def command(
     steps = _steps(source, settings) if source else ()
     options = RunOptions(name, steps, force, dry_run, set())
     outputs = [output._replace(is_text=as_text, is_single=single) for output in outputs]
-    jobs = planned(find_inputs(inputs, takes_projects=True), outputs, layers, force)
+    jobs = planned(find_inputs(inputs, takes_projects=True), outputs, layers, force, dry_run)
     read = [Path(name)] if source else []
     runlog.check(log_file, [*read, *(file for job in jobs for file in job.files)])
     with runlog.opened(None if dry_run else log_file, name):
@@ -280,11 +280,16 @@ def _run_all(options: RunOptions, jobs: Sequence[Job]) -> None:
 def _line(options: RunOptions, result: Result, job: Job) -> str:
     """What is printed of a mesh that is done."""
     if options.dry_run:
-        files = " and ".join(output.name for output in job.outputs) or "no file"
-        return f"{job.name}: ok; {counted(result.steps, 'step')} to run, then {files} to write"
+        return _intended(job, result.steps)
     did = _did(options, result.steps)
     line = f"{job.name} -> {saved_text(result.outputs)}: {did}, {result.seconds:.1f} s"
-    return "\n".join([line, *step_results(result.returned)])
+    return "\n".join([printable(line), *step_results(result.returned)])
+
+
+def _intended(job: Job, steps: int) -> str:
+    """What is printed of a mesh in a dry run."""
+    files = " and ".join(output.name for output in job.outputs) or "no file"
+    return printable(f"{job.name}: ok; {counted(steps, 'step')} to run, then {files} to write")
 
 
 def _did(options: RunOptions, steps: int) -> str:
@@ -303,8 +308,7 @@ def _run_job(options: RunOptions, job: Job) -> str:
         ms = _load(job)
         calls = resolve(options.steps, options.source, [mesh.id() for mesh in ms])
         if options.dry_run:
-            files = " and ".join(output.name for output in job.outputs) or "no file"
-            return f"{job.name}: ok; {counted(len(calls), 'step')} to run, then {files} to write"
+            return _intended(job, len(calls))
         before = surface_of(ms) if job.page else None
         played = play(ms, calls, options.source, Path(job.name).name)
         saved = _save(ms, job, options)
@@ -312,7 +316,7 @@ def _run_job(options: RunOptions, job: Job) -> str:
         if job.page is not None:
             _write_page(job, (before, surface_of(ms)), options, played, notes)
     line = f"{job.name} -> {saved}: {_did(options, len(calls))}, {seconds:.1f} s"
-    return "\n".join([line, *step_results(played)])
+    return "\n".join([printable(line), *step_results(played)])
 
 
 def _write_page(

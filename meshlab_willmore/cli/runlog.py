@@ -17,6 +17,7 @@ from ..batch.steplog import log
 from ..files import is_stream, opened_stream, place_of, refuse_special, writable_folder
 from ..messages import WrongUse
 from .scripts import STANDARD_STREAM
+from .text import printable
 
 # How a log begins, and how many bytes of a file show whether it is one.
 _BEGINNING = re.compile(rb"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d run ")
@@ -29,6 +30,10 @@ class _Handler(logging.StreamHandler):
     def __init__(self, stream: TextIO, name: str) -> None:
         super().__init__(stream)
         self._log_name = name
+
+    def format(self, record: logging.LogRecord) -> str:
+        # A line of the log stays one whatever a file is called.
+        return printable(super().format(record))
 
     def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802
         error = sys.exc_info()[1]

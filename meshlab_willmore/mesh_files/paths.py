@@ -233,6 +233,13 @@ def check_output(path: Path, force: bool) -> None:
     """
     check_place(path, force)
     _check_encoding(path)
+    check_format(path)
+    writable_folder(path.parent)
+    writable_folder(place_of(path).parent)
+
+
+def check_format(path: Path) -> None:
+    """Raise `WrongUse` if the ending is not that of a format that can be written."""
     ending = path.suffix.lstrip(".")
     if path.suffix.lower() in formats.PROJECTS and not is_project(path):
         raise WrongUse(f"{path} would be a project; only {PROJECT} projects are written")
@@ -241,8 +248,6 @@ def check_output(path: Path, force: bool) -> None:
         raise WrongUse(
             f"the format of {path} is unknown: {why}; there are {', '.join(formats.COMMON)}"
         )
-    writable_folder(path.parent)
-    writable_folder(place_of(path).parent)
 
 
 def check_place(

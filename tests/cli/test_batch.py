@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from .conftest import FLIP, TAUBIN, call, cube_file, listing, same_mesh, script_file
+from .conftest import FLIP, TAUBIN, call, cube_file, listing, same_mesh, script_file, spawn
 
 
 def test_records_resume_shards_and_summary():
@@ -143,3 +143,86 @@ def test_summary_of_other_files_is_refused(cube):
         "Error: cube.ply holds no records of a batch; use a new name\n"
     )
     assert call("summary", "no.jsonl").exit_code == 2
+
+
+# --- records on the standard output --------------------------------------------------------------
+
+
+@pytest.mark.parametrize("command", ["run", "flip"])
+def test_records_on_the_standard_output_and_nothing_else(command):
+    cube_file("one.ply")
+    Path("bad.ply").write_text("no mesh")
+    inputs = ["-i", "*.ply", "-o"] if command == "run" else ["*.ply"]
+    done = spawn(command, *inputs, "{name}.off", "--json", "-", "--summary", "--workers", 1)
+    assert done.returncode == 1
+    records = [json.loads(line) for line in done.stdout.splitlines()]
+    assert {r["input"]: r["status"] for r in records if "input" in r} == {
+        "one.ply": "done",
+        "bad.ply": "bad file",
+    }
+    assert "\n2 inputs: " in done.stderr
+    assert listing() == ["bad.ply", "one.off", "one.ply"]
+
+
+def test_measure_takes_the_standard_output_too():
+    cube_file("one.ply")
+    assert call("measure", "one.ply", "--json", "-").stdout == call("measure", "one.ply",
+                                                                    "--json").stdout  # fmt: skip
+    assert json.loads(call("measure", "--json", "-", "one.ply").stdout)[0]["faces"] == 24
+    assert listing() == ["one.ply"]
+
+
+def test_no_batch_goes_on_from_the_standard_output():
+    cube_file("one.ply")
+    result = call("flip", "one.ply", "a.ply", "--json", "-", "--resume")
+    assert result.exit_code == 2
+    assert "so no batch can go on from it; name a file" in result.stderr
+
+
+# --- dry runs ------------------------------------------------------------------------------------
+
+
+def test_dry_run_makes_no_folders():
+    Path("in/deep").mkdir(parents=True)
+    Path("out").mkdir()
+    cube_file("in/deep/one.ply")
+    arguments = ["run", script_file(TAUBIN), "-i", "in/**/*.ply", "-o", "out/{dir}/{name}.off"]
+    result = call(*arguments, "--dry-run")
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert (
+        result.stdout == "in/deep/one.ply: ok; 1 step to run, then out/in/deep/one.off to write\n"
+    )
+    assert listing("out") == []
+    wrong = call(*arguments[:-1], "out/{dir}/{name}.fbx", "--dry-run")
+    assert wrong.exit_code == 2
+    assert wrong.stderr.startswith("Error: the format of out/in/deep/one.fbx is unknown")
+    assert listing("out") == []
+    assert call(*arguments).exit_code == 0
+    assert listing("out/in/deep") == ["one.off"]
+    # Where the folder is there, its files are found.
+    assert "already exists" in call(*arguments, "--dry-run").stderr
+
+
+# --- odd names -----------------------------------------------------------------------------------
+
+
+@pytest.mark.skipif(os.name == "nt", reason="such a name can't be")
+def test_a_line_break_in_a_name_breaks_no_line():
+    cube_file("a\nb.ply")
+    Path("c\nd.ply").write_text("no mesh")
+    arguments = ["-i", "*.ply", "-o", "{name}.off", "--log", "log.txt", "--summary"]
+    result = call("run", script_file(TAUBIN), *arguments)
+    assert result.stdout.startswith("a?b.ply -> a?b.off (14 vertices, 24 faces): 1 step, ")
+    assert len(result.stdout.splitlines()) == 1 + len(call_summary(result))
+    assert result.stderr.startswith("Error: cannot read c d.ply: ")
+    assert len(result.stderr.splitlines()) == 2
+    assert not [line for line in Path("log.txt").read_text().splitlines() if line[:1] == "b"]
+    assert len(call("flip", "a\nb.ply", "out.off").stdout.splitlines()) == 1
+    dry = call("run", script_file(TAUBIN), "-i", "a\nb.ply", "--dry-run")
+    assert dry.stdout == "a?b.ply: ok; 1 step to run, then no file to write\n"
+
+
+def call_summary(result):
+    """The lines of the summary in what was printed."""
+    lines = result.stdout.splitlines()
+    return lines[next(i for i, line in enumerate(lines) if line.startswith("2 inputs: ")) :]

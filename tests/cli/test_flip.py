@@ -134,3 +134,22 @@ def test_wrong_values_are_reported_before_loading(option, value, line):
     assert (result.exit_code, result.stdout) == (2, "")
     assert result.stderr.startswith(f"Error: {option}: ")
     assert line in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("words", "option"),
+    [
+        (["--foldangle", "90"], "--foldangle 90 "),
+        (["--minshape", ".05"], "--minshape 0.05 "),
+        (["--foldangle", "89.9"], ""),
+        ([], ""),
+    ],
+)
+def test_a_default_that_the_preset_overrules_is_noted(cube, words, option):
+    result = call("flip", cube, "out.ply", "--preset", "faithful", *words)
+    assert result.exit_code == 0
+    notes = result.stderr.splitlines()
+    assert len(notes) == bool(option)
+    if option:
+        assert notes[0].startswith(f"Note: {option}is the default, in place of which the preset ")
+    assert call("flip", cube, "other.ply", *words).stderr == ""

@@ -20,6 +20,11 @@ _PROC = Path("/proc/self")
 _PEAK = "5"
 
 
+def can_limit() -> bool:
+    """Whether this system limits memory at all: Windows and macOS do not."""
+    return resource is not None and sys.platform == "linux"
+
+
 @contextmanager
 def limited(size: int | None) -> Iterator[None]:
     """Inside, the process can have at most about `size` bytes in memory (None: no limit).

@@ -82,9 +82,10 @@ def plan(
                 check_output(output.path, force)
             else:
                 check_format(output.path)
-        if page is not None and job.page is not None:
-            if _has_folder(job, job.page, page, makes_folders):
-                check_place(job.page, force, "{name}.html")
+        if page is None or job.page is None:
+            continue
+        if _has_folder(job, job.page, page, makes_folders):
+            check_place(job.page, force, "{name}.html")
     return jobs
 
 

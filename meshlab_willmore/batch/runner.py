@@ -10,6 +10,7 @@ import shutil
 import socket
 import threading
 import time
+import warnings
 from collections import defaultdict
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from contextlib import ExitStack, closing, suppress
@@ -20,8 +21,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import cloudpickle
 import pymeshlab
 
+from .. import memory
 from ..files import place_of
-from ..machine import MachineError, core_count
+from ..machine import MachineError, MachineWarning, core_count
 from ..mesh_files.paths import Output, check_output, check_place, find_inputs
 from ..messages import WrongUse, one_line
 from ..mlx.steps import ScriptError, Step
@@ -405,6 +407,12 @@ def _check(options: BatchOptions) -> None:
     ):
         if value is not None and value < least:
             raise WrongUse(f"{name} is {value}, but must be {least} or more")
+    if options.memory is not None and not memory.can_limit():
+        warnings.warn(
+            "this system can't limit the memory of a process: the limit has no effect",
+            MachineWarning,
+            stacklevel=2,
+        )
     if options.timeout is not None and not 0.0 < options.timeout <= threading.TIMEOUT_MAX:
         raise WrongUse(f"timeout is {options.timeout:g}, which is no number of seconds to wait")
     if options.resume and options.log is None:

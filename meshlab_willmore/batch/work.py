@@ -258,14 +258,14 @@ def save_all(
         return
     if ms.mesh_number() == 0:
         raise OSError(f"cannot write {job.outputs[0].name}: the script leaves no mesh")
-    origin = job.inputs[0].parent if job.inputs else None
+    origins = tuple(dict.fromkeys(path.parent for path in job.sources))
     layers = iter(_layers(ms, [output for output in job.outputs if not output.is_project]))
     for output in job.outputs:
         how = options._replace(
             parts=output.parts,
             is_text=output.is_text,
             is_single=output.is_single,
-            origin=origin,
+            origins=origins,
         )
         if output.is_project:
             files = projects.save_project(ms, output.path, how, saving)

@@ -117,7 +117,7 @@ def _flip(job: Job, given: dict[str, Any], force: bool) -> Result:
             returned = _flipped(ms, path, given)
         status.begin(f"saving {output.path}")
         how = SaveOptions(
-            output.parts, output.is_text, output.is_single, force=force, origin=path.parent
+            output.parts, output.is_text, output.is_single, force=force, origins=(path.parent,)
         )
         save(ms, output.path, how)
         step = StepResult(1, FILTER, returned["seconds"], returned)

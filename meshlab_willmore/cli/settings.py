@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..messages import WrongUse
+from .arguments import hyphened
 
 if TYPE_CHECKING:
     from ..meshset.catalogue import FilterInfo, ParamInfo
@@ -122,8 +123,9 @@ def _no_such_parameter(known: FilterInfo, name: str) -> str:
 def _value(param: ParamInfo, setting: Setting) -> Value:
     from ..mlx import rich
 
-    if param.choices and setting.value in param.choices:
-        return param.choices.index(setting.value)
+    typed = [hyphened(choice) for choice in param.choices]
+    if hyphened(setting.value) in typed:
+        return typed.index(hyphened(setting.value))
     try:
         value = rich.parse_text(param.type, setting.value)
     except ValueError as error:

@@ -6,6 +6,7 @@ the meshes, and names none that a project has not been read from: they are saved
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator
 from contextlib import nullcontext
 from pathlib import Path
@@ -13,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..files import atomic_write
+from ..files import atomic_write, writable_folder
 from ..messages import WrongUse, note, reason
 from . import loading
 from .paths import check_input, is_project
@@ -122,20 +123,26 @@ def save_project(
 ) -> list[Path]:
     """Save all layers of `ms` beside a project, then the project; returns the files, it first.
 
-    The mesh of layer i of ``out.mlp`` is ``out_i.ply``. `saving` gives a context for each file.
-    Raises `OSError` in one line; then there is no new project.
+    The mesh of layer i of ``out.mlp`` is ``out_i.ply``, in a folder ``out_i`` if one of its
+    textures has the name of another layer's. `saving` gives a context for each file. Raises
+    `OSError` in one line; then there is no new project.
     """
     from ..meshset import native
 
+    if os.path.lexists(path) and not (options.force or options.is_own(path)):
+        raise FileExistsError(f"cannot write {path}: it already exists; use --force to overwrite")
     ids = [mesh.id() for mesh in ms]
-    names = [f"{path.stem}_{place}.ply" for place in range(len(ids))]
+    names = _names(ms, path.stem)
     current = native.current_id(ms)
     files: list[Path] = []
     try:
         for mesh_id, name in zip(ids, names, strict=True):
             ms.set_current_mesh(mesh_id)
-            with saving(path.parent / name):
-                files += save(ms, path.parent / name, options)
+            file = path.parent / name
+            with saving(file):
+                if file.parent != path.parent:
+                    writable_folder(file.parent)
+                files += save(ms, file, options)
     finally:
         native.make_current(ms, current)
     if count := ms.raster_number():
@@ -145,6 +152,18 @@ def save_project(
     if options.written is not None:
         options.written.add(path.resolve())
     return [path, *files]
+
+
+def _names(ms: pymeshlab.MeshSet, stem: str) -> list[str]:
+    """The names of the meshes' files, as a project has them."""
+    names: list[str] = []
+    textures: set[str] = set()
+    for place, mesh in enumerate(ms):
+        name = f"{stem}_{place}"
+        own = set(mesh.textures())
+        names.append(f"{name}/{name}.ply" if own & textures else f"{name}.ply")
+        textures |= own
+    return names
 
 
 def _lines(ms: pymeshlab.MeshSet, names: list[str]) -> Iterator[str]:

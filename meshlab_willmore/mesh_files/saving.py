@@ -44,8 +44,8 @@ class SaveOptions(NamedTuple):
     is_single: bool = False
     # Overwrite existing files.
     force: bool = False
-    # The folder of the input, from which unchanged textures are copied.
-    origin: Path | None = None
+    # The folders of the inputs, from which unchanged textures are copied.
+    origins: tuple[Path, ...] = ()
     # What this run has written, which no other output replaces; the new files are added.
     written: set[Path] | None = None
     # When a batch began that several processes work at. Newer files are its own: the mesh is of an
@@ -76,7 +76,7 @@ def save(ms: pymeshlab.MeshSet, path: Path, options: SaveOptions) -> list[Path]:
         if options.is_single and ending.lower() == "ply":
             _make_single(draft, path)
         for name, image in images.items():
-            folders = (path.parent, options.origin) if options.origin else (path.parent,)
+            folders = (path.parent, *options.origins)
             write_texture(image, draft.parent / name, [place / name for place in folders])
         moves = _moves(folder, draft, path)
         for source, target in moves:

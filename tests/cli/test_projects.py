@@ -8,8 +8,20 @@ import pymeshlab
 import pytest
 
 from meshlab_willmore import batch
+from meshlab_willmore.mesh_files.projects import save_project
+from meshlab_willmore.mesh_files.saving import SaveOptions
 
-from .conftest import FLIP, SAMPLES, call, cube_file, listing, loaded, same_mesh, script_file
+from .conftest import (
+    FLIP,
+    ONE_PIXEL,
+    SAMPLES,
+    call,
+    cube_file,
+    listing,
+    loaded,
+    same_mesh,
+    script_file,
+)
 
 PLACE = np.array([[0, -1, 0, 0.1234567890123456], [1, 0, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1.0]])
 TEXTURED = SAMPLES / "bunny10k_textured.obj"
@@ -98,20 +110,31 @@ def test_masks_and_forms_are_for_all_layers(project):
         assert b"property float nx" in header
 
 
-def test_textures_of_layers_are_copied_once():
-    Path("textured").mkdir()
-    call("run", "-i", TEXTURED, "-o", "textured/a.obj")
-    layer = ("textured/a.obj", "a", True, np.eye(4))
-    result = call("run", "-p", project_file(layer, layer), "-w", "out.mlp")
+def test_layers_keep_their_textures_also_where_names_are_the_same():
+    Path("one").mkdir()
+    Path("two").mkdir()
+    call("run", "-i", TEXTURED, "-o", "one/a.obj")
+    call("run", "-i", TEXTURED, "-o", "two/a.obj")
+    Path("two/TextureDouble_A.png").write_bytes(ONE_PIXEL)
+    layers = [(f"{folder}/a.obj", folder, True, np.eye(4)) for folder in ("one", "two")]
+    result = call("run", "-p", project_file(*layers), "-w", "out.mlp")
     assert (result.exit_code, result.stderr) == (0, "")
-    assert listing() == [
-        "TextureDouble_A.png",
-        "in.mlp",
-        "out.mlp",
-        "out_0.ply",
-        "out_1.ply",
-        "textured",
-    ]
+    assert listing() == ["TextureDouble_A.png", "in.mlp", "one", "out.mlp", "out_0.ply", "out_1",
+                         "two"]  # fmt: skip
+    assert listing("out_1") == ["TextureDouble_A.png", "out_1.ply"]
+    assert Path("out_1/TextureDouble_A.png").read_bytes() == ONE_PIXEL
+    texture = Path("one/TextureDouble_A.png").read_bytes()
+    assert Path("TextureDouble_A.png").read_bytes() == texture
+    assert layers_of("out.mlp") == layers_of("in.mlp")
+
+
+def test_a_project_that_came_meanwhile_is_not_replaced():
+    ms = pymeshlab.MeshSet()
+    ms.create_cube()
+    Path("out.mlp").write_text("another's")
+    with pytest.raises(FileExistsError, match=r"cannot write out\.mlp: it already exists"):
+        save_project(ms, Path("out.mlp"), SaveOptions())
+    assert not Path("out_0.ply").exists()
 
 
 @pytest.mark.parametrize("name", ["out.mlp", "out_1.ply"])

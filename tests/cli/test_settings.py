@@ -42,6 +42,8 @@ def test_setting_replaces_the_value_of_the_script(written):
     [
         ("1.lambda=0.25", 0, Param("lambda", "RichFloat", 0.25)),
         ("2.energy=willmore", 1, Param("energy", "RichEnum", 1)),
+        ("2.energy=mean-curvature", 1, Param("energy", "RichEnum", 4)),
+        ("2.energy=mean curvature", 1, Param("energy", "RichEnum", 4)),
         ("2.energy=1", 1, Param("energy", "RichEnum", 1)),
         ("2.monotone=false", 1, Param("monotone", "RichBool", False)),
         ("3.Threshold=2%", 2, Param("Threshold", "RichAbsPerc", Percentage(2.0))),

@@ -55,7 +55,7 @@ def test_saved_mesh_is_that_of_pymeshlab(ending, tmp_path):
 
 
 def test_material_and_texture_are_saved_beside_the_mesh(tmp_path):
-    files = save(textured_set(), tmp_path / "a.obj", SaveOptions(origin=SAMPLES))
+    files = save(textured_set(), tmp_path / "a.obj", SaveOptions(origins=(SAMPLES,)))
     assert sorted(file.name for file in files) == listing(tmp_path) == [IMAGE, "a.obj", "a.obj.mtl"]
     assert files[0].name == "a.obj"
     assert "mtllib ./a.obj.mtl" in (tmp_path / "a.obj").read_text()
@@ -67,8 +67,8 @@ def test_material_and_texture_are_saved_beside_the_mesh(tmp_path):
 
 
 def test_same_texture_may_exist(tmp_path):
-    save(textured_set(), tmp_path / "a.ply", SaveOptions(origin=SAMPLES))
-    files = save(textured_set(), tmp_path / "b.ply", SaveOptions(origin=SAMPLES))
+    save(textured_set(), tmp_path / "a.ply", SaveOptions(origins=(SAMPLES,)))
+    files = save(textured_set(), tmp_path / "b.ply", SaveOptions(origins=(SAMPLES,)))
     assert tmp_path / "b.ply" in files
     assert listing(tmp_path) == [IMAGE, "a.ply", "b.ply"]
 
@@ -79,10 +79,10 @@ def test_different_texture_is_kept_unless_forced(tmp_path):
     with pytest.raises(
         OSError, match=rf"cannot write .*a\.ply: .*{IMAGE} already exists; use --force"
     ):
-        save(textured_set(), tmp_path / "a.ply", SaveOptions(origin=SAMPLES))
+        save(textured_set(), tmp_path / "a.ply", SaveOptions(origins=(SAMPLES,)))
     assert listing(tmp_path) == [IMAGE]
     assert other.read_bytes() == b"another picture"
-    save(textured_set(), tmp_path / "a.ply", SaveOptions(force=True, origin=SAMPLES))
+    save(textured_set(), tmp_path / "a.ply", SaveOptions(force=True, origins=(SAMPLES,)))
     assert other.read_bytes() == (SAMPLES / IMAGE).read_bytes()
 
 
@@ -91,7 +91,7 @@ def test_changed_texture_is_written_again(tmp_path):
     changed.parent.mkdir()
     # The file beside the input shows something else by now.
     changed.write_bytes(b"not the picture")
-    save(textured_set(), tmp_path / "a.obj", SaveOptions(origin=changed.parent))
+    save(textured_set(), tmp_path / "a.obj", SaveOptions(origins=(changed.parent,)))
     again = pymeshlab.MeshSet()
     again.load_new_mesh(str(tmp_path / "a.obj"))
     (image,) = again.current_mesh().textures().values()
@@ -112,7 +112,7 @@ def test_texture_in_a_parent_folder(tmp_path):
     assert list(ms.current_mesh().textures()) == ["../images/t.png"]
     target = tmp_path / "target" / "mesh"
     target.mkdir(parents=True)
-    save(ms, target / "b.obj", SaveOptions(origin=source))
+    save(ms, target / "b.obj", SaveOptions(origins=(source,)))
     assert listing(target) == ["b.obj", "b.obj.mtl"]
     assert listing(tmp_path / "target") == ["images", "mesh"]
     assert (target.parent / "images" / "t.png").read_bytes() == (SAMPLES / IMAGE).read_bytes()
@@ -245,7 +245,7 @@ def test_failed_rename_removes_new_side_files(tmp_path, monkeypatch):
 
     monkeypatch.setattr(os, "replace", fail_for_mesh)
     with pytest.raises(OSError, match=r"cannot write .*a\.obj: Permission denied"):
-        save(textured_set(), tmp_path / "a.obj", SaveOptions(origin=SAMPLES))
+        save(textured_set(), tmp_path / "a.obj", SaveOptions(origins=(SAMPLES,)))
     assert listing(tmp_path) == []
 
 
@@ -334,7 +334,7 @@ def test_side_files_replace_only_files(name):
     os.mkfifo("pipe")
     Path(name).symlink_to("pipe")
     with pytest.raises(OSError, match=f"cannot write {name}: it leads to a pipe"):
-        save(ms, Path("a.obj"), SaveOptions(force=True, origin=SAMPLES))
+        save(ms, Path("a.obj"), SaveOptions(force=True, origins=(SAMPLES,)))
     assert listing() == sorted([name, "pipe"])
     assert stat.S_ISFIFO(os.stat(name).st_mode)
 

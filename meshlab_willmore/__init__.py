@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import functools
 import importlib
+import logging
 import warnings
 from typing import TYPE_CHECKING, Any
 
@@ -23,10 +24,12 @@ if TYPE_CHECKING:
     )
     from .meshset.register import is_registered, register, unregister
     from .optimize import optimize_flips
+    from .progress import Cancelled
     from .results import FlipResult
 
 # Kernels take their time to load: what needs them is fetched when it is first used.
 _HOMES = {
+    "Cancelled": "progress",
     "FlipResult": "results",
     "Measures": "measure",
     "intersection_angles": "measure",
@@ -43,6 +46,7 @@ _HOMES = {
 }
 
 __all__ = [
+    "Cancelled",
     "FlipResult",
     "Measures",
     "__version__",
@@ -58,6 +62,10 @@ __all__ = [
     "vertex_willmore_energy",
     "willmore_energy",
 ]
+
+
+# Silent unless the program that imports this package wants to have its log.
+logging.getLogger(__name__).addHandler(logging.NullHandler())
 
 
 def __getattr__(name: str) -> Any:

@@ -1,6 +1,8 @@
 """Running passes on a half-edge mesh: the table of searches, and their rules and limits."""
 
+import logging
 import math
+import time
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -13,11 +15,14 @@ from .guards.bvh import build_bvh, inactive_bvh
 from .measure import intersecting_faces_of
 from .mesh.halfedge import lengths_of_sides
 from .mesh.validate import in_input_units
+from .progress import report, stage
 from .results import PassResult
 from .search import annealing, greedy, multistart, parallel_greedy, variable_depth
 from .search.compiled import KERNELS, PLACED_KERNELS
 from .search.rules import CONVERGED, ChainLimits, Rules, Schedule, Settings
 from .search.snapshots import assign, copy_of
+
+_log = logging.getLogger(__name__)
 
 NO_FLIP = "no allowed flip lowers the energy any more"
 NO_CHAIN = "no allowed chain of flips lowers the energy any more"
@@ -43,21 +48,33 @@ class Search(NamedTuple):
     warm_starts : tuple of str
         Energies along which greedy descent makes one more start each. Chains begin at the better
         one of the first of them and the mesh itself.
+    work, work_per_sweep : float
+        About how long it takes, measured on scans; "parallel greedy" takes 1.
     """
 
     run: Callable
     converged: str
     is_random: bool = False
     warm_starts: tuple[str, ...] = ()
+    work: float = 1.0
+    work_per_sweep: float = 0.0
 
 
 SEARCHES = {
     "parallel greedy": Search(parallel_greedy.run, NO_FLIP),
-    "greedy": Search(greedy.run, NO_FLIP),
-    "variable depth": Search(variable_depth.run, NO_CHAIN, warm_starts=("delaunay",)),
-    "annealing": Search(annealing.run, NO_FLIP, is_random=True),
-    "thorough": Search(multistart.run, NO_CHAIN, warm_starts=("delaunay", "mean curvature")),
+    "greedy": Search(greedy.run, NO_FLIP, work=8.0),
+    "variable depth": Search(variable_depth.run, NO_CHAIN, warm_starts=("delaunay",), work=300.0),
+    "annealing": Search(annealing.run, NO_FLIP, is_random=True, work=20.0, work_per_sweep=3.0),
+    "thorough": Search(
+        multistart.run, NO_CHAIN, warm_starts=("delaunay", "mean curvature"), work=300.0
+    ),
 }
+# What the guard against intersections adds to it, and the part of it that a pass at folds takes.
+GUARD, AT_FOLDS = 2.0, 0.002
+# The share in the time of a pass in which the guard is built.
+BUILDING = 0.15
+# The share of the passes in the time of all, where they may have to be made again.
+FIRST_RUN = 0.9
 
 
 class Run(NamedTuple):
@@ -75,9 +92,11 @@ def run_keeping_cuts(plan, mesh, exponent, left):
     make any.
     """
     begin = copy_of(mesh)
-    run = run_all(plan, mesh, exponent, left)
+    with stage(FIRST_RUN):
+        run = run_all(plan, mesh, exponent, left)
     if not run.met_folds or all(one.checkintersections for one in plan):
         return run
+    report(FIRST_RUN, "counting faces that cut others")
     before, after = (np.count_nonzero(intersecting_faces_of(each)) for each in (begin, mesh))
     if after <= before:
         return run
@@ -89,21 +108,41 @@ def run_keeping_cuts(plan, mesh, exponent, left):
 def run_all(plan, mesh, exponent, left):
     """Make the flips of all passes, at most `left`, in place."""
     done, deviation, met_folds = [], 0.0, False
-    for one in plan:
+    work = [work_of(one) for one in plan]
+    for number, one in enumerate(plan, start=1):
+        start = time.perf_counter()
         if one.counts_anew:
             deviation += mesh.deviation.max(initial=0.0)
             mesh.deviation[:] = 0.0
         part = faces_near_folds(mesh) if one.atfolds else None
-        if part is None:
-            done.append(_run(one, mesh, exponent, left))
-        elif part.any():
-            met_folds = True
-            with locked_outside(mesh, part) as unlocked:
-                done.append(_run(one, unlocked, exponent, left))
-        else:
-            done.append(PassResult(one.energy, one.search, 0, 0.0, True))
+        name = f"pass {number} of {len(plan)}"
+        with stage(work[number - 1] / sum(work[number - 1 :]), name if len(plan) > 1 else ""):
+            if part is None:
+                done.append(_run(one, mesh, exponent, left))
+            elif part.any():
+                met_folds = True
+                with locked_outside(mesh, part) as unlocked:
+                    done.append(_run(one, unlocked, exponent, left))
+            else:
+                done.append(PassResult(one.energy, one.search, 0, 0.0, True))
         left -= done[-1].flips
+        _log.info(
+            "%s, %s by %s: %d flips, gain %g, %.3f s",
+            name,
+            one.energy,
+            one.search,
+            done[-1].flips,
+            done[-1].gain,
+            time.perf_counter() - start,
+        )
     return Run(done, deviation + mesh.deviation.max(initial=0.0), met_folds)
+
+
+def work_of(one):
+    """Return about how long a pass takes, in the unit of `Search.work`."""
+    search = SEARCHES[one.search]
+    work = search.work + search.work_per_sweep * one.sweeps + GUARD * one.checkintersections
+    return work * AT_FOLDS if one.atfolds else work
 
 
 def _run(one, mesh, exponent, left):
@@ -125,7 +164,10 @@ def _run(one, mesh, exponent, left):
         (KERNELS[name], suited(rules, ENERGIES[name], mesh)) for name in search.warm_starts
     )
     limits, schedule = ChainLimits(one.depth, one.breadth), Schedule(one.sweeps, one.seed)
-    bvh = build_bvh(mesh, exponent) if one.checkintersections else inactive_bvh()
+    bvh = inactive_bvh()
+    if one.checkintersections:
+        with stage(BUILDING, "building the bounding volume hierarchy"):
+            bvh = build_bvh(mesh, exponent)
     progress = search.run(kernels, mesh, rules, bvh, Settings(limits, schedule, warm_starts))
     gain = in_input_units(progress.gain, exponent * row.length_power)
     return PassResult(one.energy, one.search, progress.flips, gain, progress.state == CONVERGED)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import functools
+import logging
 import math
+import time
 from collections.abc import Callable, Sequence
 from typing import NamedTuple, ParamSpec, TypeVar
 
@@ -11,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import guards, options
-from .execution import SEARCHES, STOPPED_REASON, run_all, run_keeping_cuts
+from .execution import SEARCHES, STOPPED_REASON, run_all, run_keeping_cuts, work_of
 from .measure import quality_of, willmore_energy_of
 from .mesh.build import build, changed_edges, in_old_slots, local_order
 from .mesh.halfedge import Mesh
@@ -27,8 +29,13 @@ from .mesh.validate import (
 from .options import EnergyName, PassOptions, PresetName, SearchName, VirtualPoint
 from .passes import check_combination, planned
 from .presets import PRESETS
+from .progress import Listen, listening, logged, report, stage
 from .results import FlipResult
 from .search.rules import NO_LIMIT
+
+_log = logging.getLogger(__name__)
+# About how long the work before and after the passes takes; one by "parallel greedy" takes 1.
+BEFORE, AFTER = 0.5, 0.15
 
 
 class _Locks(NamedTuple):
@@ -79,6 +86,7 @@ def optimize_flips(
     locked_edges: ArrayLike | None = None,
     wedge_uv: ArrayLike | None = None,
     maxflips: int | None = None,
+    progress: Listen | None = None,
 ) -> FlipResult:
     """Flip edges of a triangle mesh until no allowed flip lowers the energy any more.
 
@@ -214,6 +222,12 @@ def optimize_flips(
         Stop after so many flips, of all passes, or before a chain that would exceed them. With
         "annealing" all random flips count. Every search begins with greedy flips, and ends with
         them if the limit is reached there.
+    progress : callable, optional
+        Called with the fraction of the work that is done and a text: at the beginning, then at most
+        ten times a second, and last with exactly 1. The fraction never falls. It is about in
+        proportion to the time; how far it is off, `docs/guide/progress.md` says. If the callable
+        returns False, or raises an exception, the run stops; other values mean nothing. In the
+        last call there is nothing left to stop.
 
     Returns
     -------
@@ -227,6 +241,8 @@ def optimize_flips(
     ValueError
         If shapes, ranges or names are wrong, options contradict each other, coordinates are not
         finite, a face has a repeated vertex, or a locked pair is no edge.
+    Cancelled
+        If `progress` returns False.
 
     Notes
     -----
@@ -261,22 +277,33 @@ def optimize_flips(
         None if locked_edges is None else check_edges(locked_edges),
         None if wedge_uv is None else check_wedge_uv(wedge_uv, len(faces)),
     )
+    keeps_cuts = passes is None and PRESETS[preset].keeps_cuts
+    limit = options.MAXFLIPS.checked(maxflips)
+    with listening(progress), logged():
+        return _flipped(vertices, faces, plan, locks, limit, keeps_cuts)
+
+
+def _flipped(vertices, faces, plan, locks, limit, keeps_cuts):
+    """Return the result for checked arguments."""
+    start = time.perf_counter()
+    report(0.0, "building the half-edges")
     scaled, exponent = to_unit_scale(vertices, faces)
     order = local_order(faces, len(vertices))
     mesh = build(scaled, faces[order])
     mesh = _locked(mesh, locks, order)
     before, quality = willmore_energy_of(mesh), quality_of(mesh)
-    limit = options.MAXFLIPS.checked(maxflips)
     left = NO_LIMIT if limit is None else min(limit, NO_LIMIT)
-    if passes is None and PRESETS[preset].keeps_cuts:
-        done, deviation, _ = run_keeping_cuts(plan, mesh, exponent, left)
-    else:
-        done, deviation, _ = run_all(plan, mesh, exponent, left)
+    run = run_keeping_cuts if keeps_cuts else run_all
+    work = sum(map(work_of, plan))
+    report(BEFORE / (BEFORE + work + AFTER), "flipping")
+    with stage(work / (work + AFTER)):
+        done, deviation, _ = run(plan, mesh, exponent, left)
+    report(0.0, "measuring")
     new_faces, corners = in_old_slots(mesh, order)
     after, quality_after = willmore_energy_of(mesh), quality_of(mesh)
     converged = all(one.converged for one in done)
     is_random = any(SEARCHES[one.search].is_random for one in done)
-    return FlipResult(
+    result = FlipResult(
         faces=new_faces,
         flips=changed_edges(faces, new_faces) if is_random else sum(one.flips for one in done),
         gain=done[0].gain if len(done) == 1 else before - after,
@@ -298,6 +325,15 @@ def optimize_flips(
         vertices=vertices,
         faces_before=faces,
     )
+    _log.info(
+        "%d faces: %d flips, Willmore energy %g -> %g, %.3f s",
+        len(faces),
+        result.flips,
+        before,
+        after,
+        time.perf_counter() - start,
+    )
+    return result
 
 
 def _locked(mesh: Mesh, locks: _Locks, order: NDArray[np.integer]) -> Mesh:

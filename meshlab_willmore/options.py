@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from .energy.table import ENERGIES, VIRTUAL_POINTS
 from .presets import FULL_DIAGONAL, PRESETS
+from .progress import Listen
 
 # The filter whose parameters these are.
 FILTER = "meshing_edge_flip_by_willmore_optimization"
@@ -91,6 +92,7 @@ class FlipOptions(TypedDict, total=False):
     locked_edges: ArrayLike | None
     wedge_uv: ArrayLike | None
     maxflips: int | None
+    progress: Listen | None
 
 
 class Length(float):

@@ -50,6 +50,7 @@ def test_signature_is_the_promised_one():
         "locked_edges": None,
         "wedge_uv": None,
         "maxflips": None,
+        "progress": None,
     }
 
 

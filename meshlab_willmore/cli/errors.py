@@ -214,6 +214,30 @@ debug_option = click.option(
 )
 
 
+_VERBOSE = "verbose"
+
+
+def verbosity() -> int:
+    """How often --verbose was given to the command."""
+    ctx = click.get_current_context(silent=True)
+    return ctx.meta.get(_VERBOSE, 0) if ctx else 0
+
+
+def _remember_verbosity(ctx: click.Context, _option: click.Parameter, count: int) -> None:
+    ctx.meta[_VERBOSE] = count
+
+
+verbose_option = click.option(
+    "-v",
+    "--verbose",
+    count=True,
+    expose_value=False,
+    callback=_remember_verbosity,
+    help="Print the log of passes and steps on the standard error; -vv: the progress too. Not of a "
+    "batch.",
+)
+
+
 # --- streams and signals -----------------------------------------------------------------------
 
 

@@ -24,7 +24,7 @@ from .arguments import (
 )
 from .batch import batch_options, is_batch, json_file_option, planned, run_batch
 from .completion import files
-from .errors import debug_option
+from .errors import debug_option, verbose_option
 from .reports import report_option
 from .text import flip_results, printable
 
@@ -55,6 +55,7 @@ Examples:
 @json_file_option
 @report_option
 @batch_options
+@verbose_option
 @debug_option
 def command(
     sources: tuple[str, ...],
@@ -108,13 +109,14 @@ def _flip(job: Job, given: dict[str, Any], force: bool) -> Result:
     from ..mesh_files.saving import SaveOptions, save
 
     (path,), (output,) = job.inputs, job.outputs
-    with progress.shown(path.name) as status, notes_kept() as notes:
+    with progress.shown(path.name, 1) as status, notes_kept() as notes:
         status.begin("reading")
         ms = loading.loaded(path)
         before = surface_of(ms) if job.page else None
         status.begin("flipping")
-        with progress.with_details(status):
+        with progress.with_details(status, is_part=True):
             returned = _flipped(ms, path, given)
+        status.end()
         status.begin(f"saving {output.path}")
         how = SaveOptions(
             output.parts, output.is_text, output.is_single, force=force, origins=(path.parent,)

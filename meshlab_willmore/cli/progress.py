@@ -8,6 +8,8 @@ every few seconds; a batch of quick files prints none.
 from __future__ import annotations
 
 import io
+import logging
+import math
 import os
 import shutil
 import sys
@@ -18,10 +20,15 @@ from contextlib import ExitStack, contextmanager, suppress
 from typing import Any, TextIO
 
 from ..batch.lost_kernels import note_lost_kernels
+from .errors import verbosity
 from .text import beginning_of, end_of, printable, terminal_width, width
 
 SECONDS_ON_A_TERMINAL = 1.0
 SECONDS_IN_A_LOG = 8.0
+
+_PACKAGE = __name__.partition(".")[0]
+# By how often --verbose was given.
+_LEVELS = (logging.WARNING, logging.INFO, logging.DEBUG)
 
 _BAR = 16
 # Narrower windows have no room for the label.
@@ -40,6 +47,7 @@ class Status:
         self._total = total
         self._clock = clock
         self._done = self._begun = 0
+        self._fraction = 0.0
         self._what = self._detail = ""
         self._since = clock()
         self._screen: _Screen | None = None
@@ -47,6 +55,7 @@ class Status:
     def begin(self, what: str) -> None:
         """Begin something else."""
         self._what, self._detail, self._since = printable(what), "", self._clock()
+        self._fraction = 0.0
 
     def next(self, what: str, detail: str = "") -> None:
         """Begin the next part; the one before is done."""
@@ -67,9 +76,9 @@ class Status:
         if self._screen is not None and self._total:
             self._screen.draw()
 
-    def detail(self, text: str) -> None:
-        """Say more about what is being done."""
-        self._detail = printable(text)
+    def detail(self, text: str, fraction: float = 0.0) -> None:
+        """Say more about what is being done, and which fraction of this part is done."""
+        self._detail, self._fraction = printable(text), fraction
 
     def hide(self) -> None:
         """Remove the line from the terminal until it is drawn again: something else is printed."""
@@ -88,7 +97,9 @@ class Status:
 
     def sentence(self) -> str:
         """The whole line for a log."""
-        part = f" ({self._done + 1} of {self._total})" if self._total else ""
+        part = f" ({self._percent()} %)" if self._fraction else ""
+        if self._total > 1:
+            part = f" ({self._done + 1} of {self._total})"
         return f"{self._label}: {self._text()}{part}, {self._seconds()} s so far"
 
     def _text_in(self, columns: int) -> str:
@@ -109,9 +120,15 @@ class Status:
     def _bar(self) -> str:
         if not self._total:
             return ""
-        full = _BAR * self._done // self._total
-        percent = 100 * self._done // self._total
-        return f"  [{'#' * full}{'-' * (_BAR - full)}] {percent:3d}%"
+        full = math.floor(_BAR * self._share())
+        return f"  [{'#' * full}{'-' * (_BAR - full)}] {self._percent():3d}%"
+
+    def _percent(self) -> int:
+        return math.floor(100.0 * self._share())
+
+    def _share(self) -> float:
+        """Which share of all parts is done."""
+        return min((self._done + self._fraction) / max(self._total, 1), 1.0)
 
 
 @contextmanager
@@ -121,6 +138,7 @@ def shown(label: str, total: int = 0) -> Iterator[Status]:
     stream = sys.stderr
     with ExitStack() as stack:
         own = stack.enter_context(_duplicate(stream))
+        stack.enter_context(_logged(own, status))
         if stream.isatty():
             screen = status._screen = _Screen(own, lambda: status.line(_columns(own)))
             stack.callback(screen.hide)
@@ -139,10 +157,37 @@ def shown(label: str, total: int = 0) -> Iterator[Status]:
 
 
 @contextmanager
-def with_details(status: Status) -> Iterator[None]:
-    """Show what searches and the compiler report inside as details of what is being done."""
+def _logged(stream: TextIO, status: Status) -> Iterator[None]:
+    """Print the package's log inside, as far as --verbose asks for it."""
+
+    class Printer(logging.Handler):
+        def emit(self, record: logging.LogRecord) -> None:
+            status.hide()
+            # The terminal may be closed.
+            with suppress(OSError, ValueError):
+                print(printable(self.format(record)), file=stream, flush=True)
+
+    level = _LEVELS[min(verbosity(), len(_LEVELS) - 1)]
+    log, printer = logging.getLogger(_PACKAGE), Printer(level)
+    before = log.level
+    if level != logging.WARNING:
+        log.setLevel(level)
+        log.addHandler(printer)
+    try:
+        yield
+    finally:
+        log.removeHandler(printer)
+        log.setLevel(before)
+
+
+@contextmanager
+def with_details(status: Status, is_part: bool = False) -> Iterator[None]:
+    """Show what searches and the compiler report inside as details of what is being done.
+
+    Where that `is_part`, one of those that are counted, also which fraction of it is done.
+    """
     from ..mesh import compiling
-    from ..mesh.notify import listening
+    from ..progress import listening
 
     has_compiled = False
 
@@ -151,7 +196,10 @@ def with_details(status: Status) -> Iterator[None]:
         has_compiled = True
         status.detail(f"compiling {name}" if name else "")
 
-    with listening(status.detail), compiling.followed(follow):
+    def hear(fraction: float, text: str) -> None:
+        status.detail(text, fraction if is_part else 0.0)
+
+    with listening(hear), compiling.followed(follow):
         yield
     note_lost_kernels(has_compiled)
 

@@ -22,7 +22,7 @@ from . import progress, runlog
 from .arguments import LAYER_HELP, force_option, form_options, mask_option, take_outputs
 from .batch import batch_options, is_batch, json_file_option, planned, run_batch
 from .completion import files, scripts
-from .errors import debug_option
+from .errors import debug_option, verbose_option
 from .reports import report_option
 from .scripts import Script, read_script
 from .text import printable, saved_text, step_results
@@ -184,6 +184,7 @@ def _only_once(_: click.Context, option: click.Parameter, values: Sequence[str])
 @report_option
 @batch_options
 @click.option("--dry-run", is_flag=True, help="Check everything, read the inputs, write nothing.")
+@verbose_option
 @debug_option
 @click.pass_obj
 def command(
@@ -360,7 +361,7 @@ def play(ms: pymeshlab.MeshSet, calls: Sequence[Call], source: str, label: str) 
             status.next(call.known.name)
             sys.stdout.flush()
             if call.known.is_willmore:
-                quiet.enter_context(progress.with_details(status))
+                quiet.enter_context(progress.with_details(status, is_part=True))
             else:
                 # No output is begun before the last step has ended.
                 quiet.enter_context(killable())

@@ -35,7 +35,7 @@ from ..guards import add_deviation
 from ..guards.bvh import Bvh, refit, refitted
 from ..mesh.halfedge import NONE, Mesh, flip, is_free
 from ..mesh.jit import inner
-from ..mesh.notify import report
+from ..progress import report, stage
 from .rules import (
     ALLOWED,
     CONVERGED,
@@ -51,6 +51,8 @@ from .snapshots import Snapshot, assign, better, copy_of, descend, finish, snaps
 
 # The judge: `meshlab_willmore.search.compiled` puts the module of each potential in this place.
 energy = willmore
+# How long the descents before and each one after the sweeps take, in sweeps, measured on scans.
+BEFORE, AFTER = 5.0, 2.0
 
 
 class AnnealingState(NamedTuple):
@@ -192,7 +194,9 @@ def _sweep(kernels, state, schedule, loss):
         for tried in range(0, edges, WORK_PER_CALL):
             draws = random.random((min(WORK_PER_CALL, edges - tried), 2))
             progress = AnnealingProgress(*kernels.anneal(state, progress, draws, temperature))
-            report(f"temperature {sweep + 1} of {schedule.sweeps}, {progress.flips} flips")
+            done = (sweep + (tried + len(draws)) / edges) / schedule.sweeps
+            text = f"temperature {sweep + 1} of {schedule.sweeps}, {progress.flips} flips"
+            report(done, text)
             if progress.state == STOPPED:
                 return progress
     return progress._replace(state=CONVERGED)
@@ -220,10 +224,15 @@ def run(kernels, mesh, rules, bvh=None, settings=DEFAULTS):
     drop of the energy that judges. `Rules.maxflips` limits the flips on the way to each state,
     those that others take back counted too. `Rules.monotone` holds for the descents.
     """
-    found = descend(kernels, snapshot_of(mesh, bvh), rules)
+    sweeps = settings.schedule.sweeps
+    with stage(BEFORE / (BEFORE + sweeps + 2.0 * AFTER)):
+        found = descend(kernels, snapshot_of(mesh, bvh), rules)
     loss = 0.0 if found.state == STOPPED else _median_loss(kernels, found.mesh, rules)
     if loss > 0.0:
-        for snapshot in _anneal(kernels, found, rules, settings.schedule, loss):
-            ended = snapshot if snapshot.state == STOPPED else descend(kernels, snapshot, rules)
+        with stage(sweeps / (sweeps + 2.0 * AFTER)):
+            snapshots = _anneal(kernels, found, rules, settings.schedule, loss)
+        for snapshot, part in zip(snapshots, (0.5, 1.0), strict=True):
+            with stage(part):
+                ended = snapshot if snapshot.state == STOPPED else descend(kernels, snapshot, rules)
             found = better(kernels, rules, found, ended)
     return finish(kernels, mesh, found)

@@ -15,10 +15,13 @@ Random kicks around each edge followed by chains, kept where they helped, were t
 next to nothing more in ten times the time.
 """
 
-from ..mesh.notify import stage
+from ..progress import stage
 from . import variable_depth
 from .rules import DEFAULTS
 from .snapshots import better, descend, extend, finish, snapshot_of
+
+# The part of the time of a start that greedy descent takes.
+DESCENT = 0.05
 
 
 def run(kernels, mesh, rules, bvh=None, settings=DEFAULTS):
@@ -37,11 +40,12 @@ def run(kernels, mesh, rules, bvh=None, settings=DEFAULTS):
     begin = snapshot_of(mesh, bvh)
     others = settings.warm_starts[1:]
     starts = 1 + len(others)
-    with stage(f"start 1 of {starts}"):
+    with stage(1 / starts, f"start 1 of {starts}"):
         found = extend(begin, chains, rules)
     for number, (warm_kernels, warm_rules) in enumerate(others, start=2):
         limited = warm_rules._replace(maxflips=rules.maxflips)
-        with stage(f"start {number} of {starts}"):
-            start = descend(warm_kernels, begin, limited)
+        with stage(1 / (starts - number + 1), f"start {number} of {starts}"):
+            with stage(DESCENT):
+                start = descend(warm_kernels, begin, limited)
             found = better(kernels, rules, found, extend(start, chains, rules))
     return finish(kernels, mesh, found)

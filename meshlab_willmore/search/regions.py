@@ -18,8 +18,8 @@ import numpy as np
 
 from ..mesh.build import build, faces_of
 from ..mesh.halfedge import NONE, Mesh
-from ..mesh.notify import stage
 from ..mesh.parallel import thread_pool
+from ..progress import report, stage
 from .rules import CONVERGED, Progress
 
 # Parts have at least so many faces. Smaller ones would be frozen for a good deal.
@@ -48,10 +48,14 @@ class Region(NamedTuple):
 
 
 class _Searches(NamedTuple):
-    """What is to be done: the search, its regions, what it returned, and whether to stop."""
+    """What is to be done: the search, its regions, what it returned, and whether to stop.
+
+    `begun` has the places of the regions that were taken, in their order.
+    """
 
     search: object
     regions: list
+    begun: list
     found: list
     halted: list
 
@@ -83,7 +87,7 @@ def run(search, mesh, threads=None):
     parts = _split(mesh)
     is_common = _common_vertices(mesh, parts)
     regions = [_region(mesh, part, is_common) for part in parts]
-    work = _Searches(search, regions, [None] * len(parts), [])
+    work = _Searches(search, regions, [], [None] * len(parts), [])
     with thread_pool(threads) as parallel_for:
         try:
             parallel_for(_search, work, len(parts), chunk=1)
@@ -101,7 +105,12 @@ def run(search, mesh, threads=None):
 def _search(work, start, stop):
     try:
         for place in range(start, stop):
-            with stage(f"part {place + 1} of {len(work.regions)}"):
+            work.begun.append(place)
+            count, done = len(work.regions), sum(one is not None for one in work.found)
+            report(done / count, "")
+            # The other threads go on meanwhile with what they have begun.
+            part = (len(work.begun) - done) / (count - done)
+            with stage(part, f"part {place + 1} of {count}"):
                 work.found[place] = work.search(work.regions[place].mesh, work.halted)
     except BaseException:
         work.halted.append(True)

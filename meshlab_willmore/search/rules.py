@@ -19,6 +19,9 @@ MOST_PASSES = 10
 # served between two calls.
 WORK_PER_CALL = 40_000
 
+# The share of a pass in the time of what is left, where ties may ask for more passes.
+PASS_SHARE = 0.95
+
 
 class Rules(NamedTuple):
     """Which flips are made.
@@ -144,6 +147,11 @@ def is_finished(rules, progress, flips, tabu_hit):
     """
     is_stuck = progress.state == STOPPED or progress.flips == flips
     return is_stuck or not (rules.monotone and tabu_hit[0])
+
+
+def pass_share(rules):
+    """Return about what share of the time that is left a pass of a greedy search takes."""
+    return PASS_SHARE if rules.monotone else 1.0
 
 
 @inner

@@ -60,7 +60,7 @@ from ..guards.bvh import refit
 from ..mesh.build import EDGE_SHIFT, edge_numbers, faces_of
 from ..mesh.halfedge import NONE, apex, flip, following, is_free
 from ..mesh.jit import inner, jit
-from ..mesh.notify import report
+from ..progress import report, stage
 from . import greedy, parallel_greedy, regions
 from .chains import ChainState, empty_chain, find_chain, find_ring
 from .containers import empty_fifo, pop, push
@@ -82,6 +82,10 @@ from .snapshots import better, descend, extend, finish, snapshot_of
 energy, judge = willmore, None
 # What another energy must gain by a flip to cast doubt on a place.
 DOUBT = 1e-7
+# Shares of the time that is left, measured on scans: of greedy descent, of the better one of two
+# descents, of the first of these two, of chains in regions, of the first chains of a search, and of
+# what may have to be repeated.
+DESCENT, BETTER, FIRST_END, IN_REGIONS, FIRST, REPEATED = 0.02, 0.7, 0.65, 0.9, 0.6, 0.8
 
 # --- the queue of starts -------------------------------------------------------------------------
 
@@ -203,12 +207,14 @@ def advance(state, progress):
     return scored, flips, gain, WORKING
 
 
-def _work_off(kernel, state, progress, halted):
+def _work_off(kernel, state, progress, halted, part=REPEATED):
     """Go on call by call until the queue is empty, the limit is reached, or all is halted."""
-    progress = progress._replace(state=WORKING)
-    while progress.state == WORKING and not halted:
-        progress = Progress(*kernel(state, progress))
-        report(f"chains, {progress.flips} flips, {state.queue.ends[1]} edges left")
+    progress, most = progress._replace(state=WORKING), max(int(state.queue.ends[1]), 1)
+    with stage(part):
+        while progress.state == WORKING and not halted:
+            progress = Progress(*kernel(state, progress))
+            left = int(state.queue.ends[1])
+            report(1.0 - left / most, f"chains, {progress.flips} flips, {left} edges left")
     return progress
 
 
@@ -223,12 +229,17 @@ def run(kernels, mesh, rules, bvh=None, settings=DEFAULTS):
     not with the guard against self-intersections, which looks everywhere, or a limit.
     """
     begin = snapshot_of(mesh, bvh)
-    found = _best_descent(kernels, begin, descend(kernels, begin, rules), rules, settings)
+    with stage(DESCENT):
+        found = descend(kernels, begin, rules)
+    with stage(DESCENT if begin.bvh.active else BETTER):
+        found = _best_descent(kernels, begin, found, rules, settings)
     changed = None
     while found.state == CONVERGED:
         search = functools.partial(_make_chains, kernels, settings=settings, changed=changed)
-        deep = extend(found, search, rules)
-        found = _best_descent(kernels, deep, deep, rules, settings)
+        with stage(REPEATED):
+            deep = extend(found, search, rules)
+        with stage(REPEATED):
+            found = _best_descent(kernels, deep, deep, rules, settings)
         if found is deep:
             break
         # With the guard, what these flips have freed may be anywhere.
@@ -248,14 +259,18 @@ def _best_descent(kernels, begin, found, rules, settings):
     # With the guard, where that way leads depends on the order of the faces.
     for other_kernels, other_rules in () if begin.bvh.active else settings.warm_starts:
         limited = other_rules._replace(maxflips=rules.maxflips)
-        other = extend(begin, _quick_descent(other_kernels, settings), limited)
-        other = extend(other, _quick_descent(kernels, settings), rules)
+        with stage(DESCENT):
+            other = extend(begin, _quick_descent(other_kernels, settings), limited)
+        with stage(DESCENT):
+            other = extend(other, _quick_descent(kernels, settings), rules)
         ends = [found, other]
         if found.state == other.state == CONVERGED:
             near = _where_they_differ(found.mesh, other.mesh)
             limits = settings.limits._replace(breadth=1)
             search = functools.partial(_search, kernels, limits=limits, changed=near)
-            ends = [extend(end, search, rules) for end in ends]
+            for place, part in enumerate((FIRST_END, 1.0)):
+                with stage(part):
+                    ends[place] = extend(ends[place], search, rules)
         ends[0] = found if ends[0].flips == found.flips else ends[0]
         found = better(kernels, rules, *ends)
     return found
@@ -273,20 +288,24 @@ def _make_chains(kernels, mesh, rules, bvh, settings, changed):
         def search(part, halted):
             return _search(kernels, part, rules, bvh, limits, halted=halted)
 
-        progress, changed = regions.run(search, mesh, settings.threads)
-    progress = _sum(progress, _search(kernels, mesh, rules, bvh, limits, changed))
+        with stage(IN_REGIONS):
+            progress, changed = regions.run(search, mesh, settings.threads)
+    with stage(IN_REGIONS):
+        progress = _sum(progress, _search(kernels, mesh, rules, bvh, limits, changed))
     # For a potential, a flip that is left would have been a chain.
     while progress.state == CONVERGED and rules.monotone:
         before, flips = mesh.origin.copy(), progress.flips
         left = rules._replace(maxflips=rules.maxflips - flips)
-        progress = _sum(progress, greedy.run(kernels, mesh, left, bvh))
+        with stage(REPEATED):
+            progress = _sum(progress, greedy.run(kernels, mesh, left, bvh))
         if progress.state == STOPPED or progress.flips == flips:
             break
         flips = progress.flips
         # With the guard, what these flips have freed may be anywhere.
         changed = None if bvh.active else _moved_vertices(before, mesh)
         left = rules._replace(maxflips=rules.maxflips - flips)
-        progress = _sum(progress, _search(kernels, mesh, left, bvh, limits, changed))
+        with stage(REPEATED):
+            progress = _sum(progress, _search(kernels, mesh, left, bvh, limits, changed))
         if progress.flips == flips:
             break
     return progress
@@ -338,9 +357,10 @@ def _search(kernels, mesh, rules, bvh, limits, changed=None, halted=()):
     near = np.ones(vertices, np.bool_) if changed is None else changed
     reach, moved = _spread(mesh, near, hops + 1), np.zeros(vertices, np.bool_)
     queue_marked(mesh, queue, _spread(mesh, near, hops))
-    progress = Progress(len(mesh.origin), 0, 0.0, WORKING)
+    progress, part = Progress(len(mesh.origin), 0, 0.0, WORKING), FIRST
     while True:
-        progress = _work_off(kernels.depth, straight, progress, halted)
+        progress = _work_off(kernels.depth, straight, progress, halted, part)
+        part = REPEATED
         while progress.state == CONVERGED and made.any():
             moved |= made
             queue_marked(mesh, queue, _spread(mesh, made, hops))

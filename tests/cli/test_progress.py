@@ -3,6 +3,7 @@
 import contextlib
 import errno
 import io
+import logging
 import os
 import subprocess
 import sys
@@ -68,6 +69,27 @@ def test_parts_of_one_thing_are_counted_by_one_clock():
     clock.now = 14.9
     assert status.sentence() == "warmup: everything: done with greedy (2 of 4), 14 s so far"
     assert status.line(80).startswith("warmup  [####------------]  25%  everything: done")
+
+
+def test_the_fraction_of_a_part_moves_the_bar():
+    status = Status("scan.ply", 4, Clock())
+    status.next("reading")
+    status.next("flipping")
+    status.detail("round 7", 0.5)
+    assert status.line(80) == "scan.ply  [######----------]  37%  flipping: round 7, 0 s"
+    status.next("smoothing")
+    assert " 50%  smoothing" in status.line(80)
+
+
+def test_one_part_alone_says_how_far_it_is_in_percent():
+    status = Status("scan.ply", 1, Clock())
+    status.begin("flipping")
+    status.detail("round 7", 0.256)
+    assert status.line(80) == "scan.ply  [####------------]  25%  flipping: round 7, 0 s"
+    assert status.sentence() == "scan.ply: flipping: round 7 (25 %), 0 s so far"
+    status.end()
+    status.begin("saving")
+    assert status.line(80) == "scan.ply  [################] 100%  saving, 0 s"
 
 
 def test_details_are_cut_last():
@@ -192,6 +214,25 @@ def test_missing_cache_folder_is_noted_after_compiling(monkeypatch, capsys, home
 
 
 # In commands
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ((), []),
+        (("-v",), ["pass 1 of 1, ", "24 faces: "]),
+        (("-vv",), ["pass 1 of 1, ", "24 faces: ", "0 %: building the half-edges"]),
+    ],
+)
+@pytest.mark.parametrize("command", [("flip",), ("run",)])
+def test_verbose_prints_the_log(script, cube, command, given, words):
+    arguments = ("run", script, "-i", cube) if command == ("run",) else ("flip", cube, "out.ply")
+    result = call(*arguments, *given)
+    assert result.exit_code == 0
+    assert all(word in result.stderr for word in words)
+    assert ("pass" in result.stderr) == bool(given)
+    assert ("%" in result.stderr) == (given == ("-vv",))
+    assert logging.getLogger("meshlab_willmore").level == logging.NOTSET
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs a terminal of POSIX")

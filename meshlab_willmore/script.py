@@ -25,6 +25,7 @@ from .mlx.decode import bytes_of
 from .mlx.read import read, reading_of
 from .mlx.steps import Fault, Param, Percentage, Reading, ScriptError, ScriptWarning, Step
 from .mlx.write import write as _write
+from .progress import Listen
 
 __all__ = [
     "Call",
@@ -106,6 +107,7 @@ def run(
     *,
     before: Callable[[Call], None] | None = None,
     after: Callable[[Played], None] | None = None,
+    progress: Listen | None = None,
 ) -> list[Played]:
     """Check a script, then run it on a set of meshes.
 
@@ -118,6 +120,12 @@ def run(
         filter script stays as it is.
     before, after : callable, optional
         Called before each step with its `Call`, and after it with what was `Played`.
+    progress : callable, optional
+        Called with the fraction that is done and a text that names the step: when a step begins,
+        while one of this package's filters works, at most ten times a second, and last with exactly
+        1. All steps count the same. If it returns False, or raises an exception, no further step
+        runs, and a filter of this package leaves its mesh as it was; native filters can't be
+        stopped.
 
     Returns
     -------
@@ -130,10 +138,12 @@ def run(
         With all faults of the script; then no step has run.
     pymeshlab.PyMeshLabException
         If a step fails; its number and name are in the message. The steps before it stay done.
+    Cancelled
+        If `progress` returns False. The steps before stay done.
     """
     ms = pymeshlab.MeshSet() if ms is None else ms
     checked = _without_fault(examined(script, [mesh.id() for mesh in ms]), script)
-    return play(ms, checked, _path_of(script) or _UNNAMED, before, after)
+    return play(ms, checked, _path_of(script) or _UNNAMED, before, after, progress)
 
 
 def write(path: str | os.PathLike[str], steps: Iterable[Step]) -> None:

@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
+import logging
+import math
 import sys
 import threading
 import traceback
 from collections.abc import Callable, Mapping
+from contextlib import nullcontext
 from typing import Any, NamedTuple
 
 import pymeshlab
 from pymeshlab import MeshSet
 
 from ..mlx.steps import Percentage
+from ..progress import listening, was_raised_by_listener
 from . import native
 from .parameters import Parameter, read_all
+
+_log = logging.getLogger(__name__)
 
 # PyMeshLab redirects the streams of the whole process, so only one filter runs at a time.
 _lock = threading.RLock()
@@ -105,6 +111,8 @@ def apply(ms: MeshSet, filter_: Filter, values: dict[str, Any]) -> dict[str, Any
     ------
     pymeshlab.PyMeshLabException
         If the filter fails; its mesh is as it was.
+    Cancelled
+        If what listens to its progress (see `meshlab_willmore.progress`) has stopped it.
     """
     with _lock:
         verbosity = native.verbosity(ms)
@@ -112,19 +120,31 @@ def apply(ms: MeshSet, filter_: Filter, values: dict[str, Any]) -> dict[str, Any
             with native.in_order():
                 print(f"\nApplying filter {filter_.name} with the following parameters:")
                 print(f"{shown_values(ms, values)}\n")
+        _log.debug("%s with %s", filter_.name, values)
         try:
-            returned, log = _run(ms, filter_, values)
+            with listening(_print) if verbosity.all else nullcontext():
+                returned, log = _run(ms, filter_, values)
         except Exception as error:
+            if was_raised_by_listener(error):
+                raise
             # A caller who keeps the exception, as an interactive session does, would hold the mesh.
             traceback.clear_frames(error.__traceback__)
             raise pymeshlab.PyMeshLabException(
                 f"Failed to apply filter: {filter_.name}\nDetails: {error}{_cure(error)}"
             ) from error
+        _log.info("%s: %s", filter_.name, log)
         if verbosity.all:
             with native.in_order():
                 print(f"LOG: 2 {log}\nLOG: 2 {filter_.name} applied!    [ 100% ]", file=sys.stderr)
                 print()
         return returned
+
+
+def _print(fraction: float, text: str) -> None:
+    """Print the progress as native filters do; what is printed of the end is not said here."""
+    if fraction < 1.0:
+        with native.in_order():
+            print(f"LOG: 2 {text}    [ {math.floor(100 * fraction)}% ]", file=sys.stderr)
 
 
 def _cure(error: Exception) -> str:

@@ -6,8 +6,9 @@ run a whole script, but does not report what a step returned or which one failed
 
 from __future__ import annotations
 
+import logging
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,10 +17,13 @@ from pymeshlab import MeshSet
 
 from ..markup import plain
 from ..mlx.steps import Percentage
+from ..progress import Listen, listening, stage, was_raised_by_listener
 from . import document, layers, native, native_calls
 from .check import Call
 from .filter import apply, values_of
 from .filters import BY_NAME
+
+_log = logging.getLogger(__name__)
 
 _MATRIX_SIDE = 4
 
@@ -50,10 +54,11 @@ class Played(NamedTuple):
 
 def play(
     ms: MeshSet,
-    calls: Iterable[Call],
+    calls: Sequence[Call],
     source: str = "filter script",
     before: Callable[[Call], None] | None = None,
     after: Callable[[Played], None] | None = None,
+    progress: Listen | None = None,
 ) -> list[Played]:
     """Run calls, one after the other; nothing is written into the set's own filter script.
 
@@ -61,28 +66,35 @@ def play(
     ----------
     ms : pymeshlab.MeshSet
         Changed in place.
-    calls : iterable of Call
+    calls : sequence of Call
         Checked steps. Mesh ids in them count as if our filters worked in place.
     source : str
         What error messages call the script.
     before, after : callable, optional
         Called around each step.
+    progress : callable, optional
+        As for `meshlab_willmore.script.run`.
 
     Raises
     ------
     pymeshlab.PyMeshLabException
         If a step fails; the steps before it have had their effect.
+    Cancelled
+        If `progress` returns False.
     """
-    done = []
-    with native.unrecorded(ms):
+    done: list[Played] = []
+    with listening(progress), native.unrecorded(ms):
         for call in calls:
-            if before is not None:
-                before(call)
-            with native.kept_working_folder():
-                played = _play_one(ms, call, source)
-            done.append(played)
-            if after is not None:
-                after(played)
+            name = f"step {call.number} ({call.known.name})"
+            with stage(1.0 / (len(calls) - len(done)), name):
+                if before is not None:
+                    before(call)
+                with native.kept_working_folder():
+                    played = _play_one(ms, call, source)
+                _log.info("%s: %s of %s, %.3f s", source, name, len(calls), played.seconds)
+                done.append(played)
+                if after is not None:
+                    after(played)
     return done
 
 
@@ -103,6 +115,8 @@ def _play_one(ms: MeshSet, call: Call, source: str) -> Played:
             with native_calls.prepared(ms, name, given) as completed:
                 returned = native.apply(ms, name, **completed)
     except Exception as error:
+        if was_raised_by_listener(error):
+            raise
         if not call.known.is_willmore:
             native.forget_failures()
         raise pymeshlab.PyMeshLabException(

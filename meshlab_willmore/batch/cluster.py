@@ -43,6 +43,7 @@ class Cluster(Generic[Key]):
         self,
         tasks: Iterable[tuple[Key, Task]],
         listen: Callable[[Key, Any], None] = lambda key, message: None,
+        wait: Callable[[], object] = lambda: None,
     ) -> Iterator[tuple[Key, Attempted]]:
         """Do tasks; give the key of each with how it ended, as they end.
 

@@ -9,12 +9,15 @@ from __future__ import annotations
 import hashlib
 import itertools
 import os
+import re
+import shutil
 import socket
 import threading
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from pathlib import Path
 from queue import Empty, SimpleQueue
+from tempfile import gettempdir
 from typing import Any, Generic, NamedTuple, TypeVar
 
 from ..files import remove_drafts
@@ -79,6 +82,17 @@ def is_running(pid: int) -> bool:
     except PermissionError:
         return True
     return True
+
+
+def remove_stale(folders: Iterable[Path]) -> None:
+    """Remove what workers have left whose batch was killed with them, on this machine."""
+    pattern = re.compile(re.escape(own_mark()).replace(str(os.getpid()), r"(\d+)") + r"-\d+")
+    for folder in (*folders, Path(gettempdir())):
+        with suppress(OSError):
+            for entry in os.scandir(folder):
+                found = pattern.search(entry.name)
+                if found and found.end() == len(entry.name) and not is_running(int(found[1])):
+                    shutil.rmtree(entry.path, ignore_errors=True)
 
 
 class Attempted(NamedTuple):
@@ -193,11 +207,12 @@ class Pool(Generic[Key]):
         self,
         tasks: Iterable[tuple[Key, Task]],
         listen: Callable[[Key, Any], None] = lambda key, message: None,
+        wait: Callable[[], object] = lambda: None,
     ) -> Iterator[tuple[Key, Attempted]]:
         """Do tasks; give the key of each with how it ended, as they end.
 
-        `listen` is called with keys and messages, in other threads. Tasks are taken when a worker
-        is free.
+        `listen` is called with keys and messages, in other threads, and `wait` about twice a second
+        while no task ends. Tasks are taken when a worker is free.
         """
         waiting = iter(tasks)
         self._threads = [
@@ -208,7 +223,7 @@ class Pool(Generic[Key]):
             thread.start()
         left = len(self._threads)
         while left:
-            result = self._next()
+            result = self._next(wait)
             if isinstance(result, BaseException):
                 raise result
             if result is None:
@@ -216,10 +231,19 @@ class Pool(Generic[Key]):
             else:
                 yield result
 
-    def _next(self) -> tuple[Key, Attempted] | BaseException | None:
+    def _next(self, wait: Callable[[], object]) -> tuple[Key, Attempted] | BaseException | None:
         while True:
             with suppress(Empty):
                 return self._results.get(timeout=_SECONDS)
+            wait()
+
+    def left_over(self) -> Iterator[tuple[Key, Attempted]]:
+        """What has ended, but was not given yet: the caller has stopped."""
+        with suppress(Empty):
+            while True:
+                result = self._results.get_nowait()
+                if isinstance(result, tuple):
+                    yield result
 
     def _serve(
         self,

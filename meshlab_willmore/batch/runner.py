@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import inspect
+import logging
 import os
 import pickle
-import re
-import shutil
 import socket
 import threading
 import time
@@ -15,7 +14,6 @@ from collections import defaultdict
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from contextlib import ExitStack, closing, suppress
 from pathlib import Path
-from tempfile import gettempdir
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import cloudpickle
@@ -28,12 +26,13 @@ from ..mesh_files.paths import Output, check_output, check_place, find_inputs
 from ..messages import WrongUse, one_line
 from ..mlx.steps import ScriptError, Step
 from ..numba_settings import check_variables
+from ..progress import Listen, Listener
 from ..script import examined
 from . import records
 from .cluster import Cluster
 from .jobs import Job, plan
 from .pages import write_table
-from .pool import RENEWED_AFTER, STARTING, Attempted, Pool, PoolSettings, is_running, own_mark
+from .pool import RENEWED_AFTER, STARTING, Attempted, Pool, PoolSettings, remove_stale
 from .process import CRASH, DONE, ERROR, MEMORY, TIMEOUT, Ended, Phase, Task
 from .records import BAD_FILE, Earlier, Records, Result
 from .shards import shard_of
@@ -43,6 +42,8 @@ if TYPE_CHECKING:
     from distributed import Client
 
 Script = str | os.PathLike[str] | Iterable[Step] | Callable[[pymeshlab.MeshSet], Any]
+
+_log = logging.getLogger(__name__)
 
 _WORK = "meshlab_willmore.batch.work:do"
 _WARM_UP = "meshlab_willmore.batch.work:warm_up"
@@ -100,6 +101,7 @@ def run(
     client: Client | None = None,
     renewed_after: int = RENEWED_AFTER,
     report: str | os.PathLike[str] | None = None,
+    progress: Listen | None = None,
 ) -> Iterator[Result]:
     """Run a script on many meshes, in worker processes that may crash.
 
@@ -141,6 +143,11 @@ def run(
         A page for a browser, with a table of all meshes, that is written in the end, also where the
         caller ends the batch. With a placeholder, such as ``pages/{name}.html``, each mesh gets a
         page of its own instead.
+    progress : callable, optional
+        Called with the fraction of the meshes that are done (without those that `resume` leaves
+        out) and a text with their names: after each result that was taken, twice a second while
+        workers are busy (not with `client`), and last with exactly 1. If it returns False, or
+        raises an exception, the batch ends as by Ctrl-C: `log` has all that was done.
 
     Yields
     ------
@@ -155,11 +162,16 @@ def run(
         Inputs and outputs don't fit together, an output exists already, or a number is wrong.
     OSError
         Outputs can't be written.
+    Cancelled
+        If `progress` returns False.
     """
+    listener = None if progress is None else Listener(progress)
     recipe = recipe_of(script)
     names = [inputs] if isinstance(inputs, (str, os.PathLike)) else list(inputs)
     if not names:
         # Without an input the command `run` does the script once, on no mesh.
+        if listener is not None:
+            listener.end()
         return
     outputs = [] if output is None else [Output(os.fspath(output))]
     page = None if report is None else Output(os.fspath(report))
@@ -195,7 +207,7 @@ def run(
         if table is not None:
             shown += batch.earlier
             stack.callback(write_table, table, recipe.source, jobs, shown)
-        for result in batch.results():
+        for result in batch.results(listener):
             if table is not None:
                 shown.append(result)
             yield result
@@ -257,8 +269,11 @@ class Batch:
         if options.resume:
             self._check_outputs()
         if options.resume and not recipe.dry_run:
-            _remove_stale({output.path.parent for job in self.jobs for output in job.outputs})
+            remove_stale({output.path.parent for job in self.jobs for output in job.outputs})
         self._pool: Pool[int] | None = None
+        # How many results were taken, and the messages of the workers by job.
+        self._count = 0
+        self._heard: dict[int, list[Any]] = defaultdict(list)
 
     def _check_outputs(self) -> None:
         """Raise `WrongUse` if an output exists that is not of this batch."""
@@ -278,22 +293,43 @@ class Batch:
         if self._pool is not None:
             self._pool.close()
 
-    def results(self) -> Generator[Result, None, None]:
+    def results(self, listener: Listener | None = None) -> Generator[Result, None, None]:
         """Do the jobs; give what became of each as it ends, when that is recorded.
 
         Raises `MachineError` where all others would fail in the same way.
         """
         log = None if self._recipe.dry_run else self._options.log
         with ExitStack() as stack:
-            own = None if log is None else stack.enter_context(closing(Records(log, self._hash)))
-            for result in self._results():
-                if own is not None:
+            if log is not None:
+                own = stack.enter_context(closing(Records(log, self._hash)))
+                stack.callback(self._record_left_over, own)
+            for result in self._results(lambda: self._hear(listener)):
+                if log is not None:
                     own.add(result)
+                _log.info("%s: %s, %.3f s", result.input, result.status, result.seconds)
                 yield result
                 if self._options.stop and not result.is_done:
                     return
+                self._count += 1
+                self._hear(listener, f"{result.input}: {result.status}")
+            if listener is not None:
+                listener.end()
 
-    def _results(self) -> Iterator[Result]:
+    def _hear(self, listener: Listener | None, *last: str) -> None:
+        """Let a listener hear how many meshes are done, the last one, and what is being done."""
+        if listener is not None:
+            done = f"{self._count} of {len(self.jobs)} meshes"
+            now = [f"{name}: {phase}" for name, phase in self.running]
+            listener.hear(self._count / len(self.jobs), ", ".join([done, *last, *now]))
+
+    def _record_left_over(self, own: Records) -> None:
+        """Record what has ended meanwhile, where the caller takes no more results."""
+        for key, attempted in self._pool.left_over() if self._pool is not None else ():
+            # Why the caller stops is more important than an error of the log.
+            with suppress(OSError):
+                own.add(self._result(key, attempted))
+
+    def _results(self, wait: Callable[[], object]) -> Iterator[Result]:
         check_variables()
         tasks = []
         for key, job in enumerate(self.jobs):
@@ -301,21 +337,21 @@ class Batch:
                 tasks.append((key, self._task(job)))
             else:
                 ended = Ended(ERROR, reason=one_line(job.problem), phase=READING)
-                yield self._result(key, Attempted(ended, 1), [])
+                yield self._result(key, Attempted(ended, 1))
         if not tasks:
             return
-        heard: dict[int, list[Any]] = defaultdict(list)
 
         def listen(key: int, message: Any) -> None:
             if message == STARTING:
-                heard[key].clear()
+                self._heard[key].clear()
             elif not isinstance(message, Phase):
-                heard[key].append(message)
+                self._heard[key].append(message)
 
-        for key, attempted in self._engine(len(tasks)).ended(tasks, listen):
+        wait()
+        for key, attempted in self._engine(len(tasks)).ended(tasks, listen, wait):
             if attempted.ended.stops_all:
                 raise MachineError(attempted.ended.reason)
-            yield self._result(key, attempted, heard.pop(key, []))
+            yield self._result(key, attempted)
 
     def _engine(self, count: int) -> Pool[int] | Cluster[int]:
         options, recipe = self._options, self._recipe
@@ -349,8 +385,8 @@ class Batch:
         folders = tuple({str(place_of(output.path).parent) for output in job.outputs})
         return Task(_WORK, work, options.timeout, folders)
 
-    def _result(self, key: int, attempted: Attempted, heard: Sequence[Any]) -> Result:
-        job, ended = self.jobs[key], attempted.ended
+    def _result(self, key: int, attempted: Attempted) -> Result:
+        job, ended, heard = self.jobs[key], attempted.ended, self._heard.pop(key, [])
         made = ended.value if ended.status == DONE else Made((), (), 0, None, None)
         is_replaced = ended.status == DONE and job.is_in_place
         size, modified = records.stamp(job.sources) if is_replaced else self._stamps[key]
@@ -440,14 +476,3 @@ def _code(function: object) -> str:
 def _manners(jobs: Sequence[Job]) -> list[tuple[Any, ...]]:
     """How outputs are saved: all but their names, in an order that is always the same."""
     return sorted({output[1:] for job in jobs for output in job.outputs})
-
-
-def _remove_stale(folders: Iterable[Path]) -> None:
-    """Remove what workers have left whose batch was killed with them, on this machine."""
-    pattern = re.compile(re.escape(own_mark()).replace(str(os.getpid()), r"(\d+)") + r"-\d+")
-    for folder in (*folders, Path(gettempdir())):
-        with suppress(OSError):
-            for entry in os.scandir(folder):
-                found = pattern.search(entry.name)
-                if found and found.end() == len(entry.name) and not is_running(int(found[1])):
-                    shutil.rmtree(entry.path, ignore_errors=True)

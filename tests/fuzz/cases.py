@@ -1,6 +1,7 @@
 """One fuzzed case: a random mesh, random options, a run, and the whole promise checked."""
 
 import contextlib
+import itertools
 import math
 from unittest import mock
 
@@ -9,6 +10,7 @@ import numpy as np
 from meshlab_willmore.measure import self_intersections
 from meshlab_willmore.mesh import parallel
 from meshlab_willmore.optimize import optimize_flips
+from meshlab_willmore.progress import Cancelled, listening
 from meshlab_willmore.search import parallel_greedy, regions, rounds
 from tests.distances import farthest
 
@@ -39,6 +41,8 @@ class Case:
         self.has_passes = bool(rng.random() < 0.15)
         if self.has_passes:
             self.options = random_passes(rng, self.vertices, self.faces)
+        # Whether one more run is stopped, and after which part of the reports.
+        self.is_stopped, self.stopped_after = bool(rng.random() < 0.4), float(rng.random())
 
     def check(self):
         """Run and check; an AssertionError says how to see it again."""
@@ -193,12 +197,31 @@ class Case:
         assert not cut.any(), f"new faces cut others: {np.flatnonzero(cut).tolist()}"
 
     def _check_repeated(self, vertices, faces, result):
-        other = self._run(vertices, faces, self.options, threads=2)
+        heard = []
+        with listening(lambda fraction, _: heard.append(fraction), seconds=0.0):
+            other = self._run(vertices, faces, self.options, threads=2)
+        promise.check_progress(heard)
         np.testing.assert_array_equal(other.faces, result.faces)
         np.testing.assert_array_equal(other.corners, result.corners)
         assert other[1:2] + other[3:7] == result[1:2] + result[3:7]
         assert other.deviation == result.deviation
         np.testing.assert_allclose(other.gain, result.gain, rtol=1e-9)
+        if self.is_stopped:
+            self._check_stop(vertices, faces, result, heard)
+
+    def _check_stop(self, vertices, faces, result, heard):
+        """A stop ends the run at once, and the next one does what it did before.
+
+        The arrays can't be written to; what a stop might leave is what the next run would meet.
+        """
+        left, calls = int(self.stopped_after * (len(heard) - 1)), itertools.count()
+        with contextlib.suppress(Cancelled), listening(lambda *_: next(calls) < left, seconds=0.0):
+            self._run(vertices, faces, self.options)
+            raise AssertionError(f"a stop after {left} of {len(heard)} reports stops nothing")
+        assert next(calls) == left + 1, "there were calls after the stop"
+        again = self._run(vertices, faces, {**self.options, "progress": lambda *_: None})
+        np.testing.assert_array_equal(again.faces, result.faces)
+        np.testing.assert_array_equal(again.corners, result.corners)
 
     def _check_again(self, vertices, result, locked, is_sure):
         """Nothing is left where the first run says so."""

@@ -165,3 +165,11 @@ def check_mapping(before, after):
     assert new[None] == old[None], "texture coordinates that are not finite have spread"
     assert new[1] >= old[1], f"{old[1] - new[1]} texture triangles turned over"
     assert new[-1] >= old[-1], f"{old[-1] - new[-1]} texture triangles turned over"
+
+
+def check_progress(fractions):
+    """They begin at 0, never fall, and end at 1, which is there only once."""
+    assert fractions[0] == 0.0, f"progress begins at {fractions[0]}"
+    assert fractions == sorted(fractions), f"progress falls: {fractions}"
+    assert fractions[-1] == 1.0, f"progress ends at {fractions[-1]}"
+    assert fractions.count(1.0) == 1, f"progress is 1 before the end: {fractions}"

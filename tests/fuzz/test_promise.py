@@ -121,3 +121,21 @@ def test_the_energies_are_the_usual_ones(energy, other, mesh):
     found, error = energies.ENERGIES[energy](*mesh)
     assert float(found) == pytest.approx(other(*mesh), rel=1e-12)
     assert error < 1e-9
+
+
+def test_progress_that_rises_to_1():
+    promise.check_progress([0.0, 0.3, 0.3, 1.0])
+
+
+@pytest.mark.parametrize(
+    ("fractions", "match"),
+    [
+        ([0.1, 1.0], "begins at 0.1"),
+        ([0.0, 0.3, 0.2, 1.0], "falls"),
+        ([0.0, 0.99], "ends at 0.99"),
+        ([0.0, 1.0, 1.0], "is 1 before the end"),
+    ],
+)
+def test_progress_that_does_not(fractions, match):
+    with pytest.raises(AssertionError, match=match):
+        promise.check_progress(fractions)

@@ -323,4 +323,70 @@ BATCHES = [
     ),
 ]
 
-FAULTS = [*FILES, *SCRIPTS, *SETS, *COMMANDS, *BATCHES]
+PROGRESS = [
+    Fault(
+        "progress falls in a stage",
+        "progress.py",
+        "whole = max(inner.reached, min(fraction, 1.0))",
+        "whole = min(fraction, 1.0)",
+        "tests/test_progress.py",
+    ),
+    Fault(
+        "progress falls by rounding",
+        "progress.py",
+        "self._reached = max(self._reached, fraction)",
+        "self._reached = fraction",
+        "tests/test_progress.py",
+    ),
+    Fault(
+        "a stage does not end where the next begins",
+        "progress.py",
+        "around.reached = max(around.reached, end)",
+        "pass",
+        "tests/test_progress.py",
+    ),
+    Fault(
+        "progress is called without pause",
+        "progress.py",
+        "self._due = time.monotonic() + self._seconds",
+        "pass",
+        "tests/test_progress.py",
+    ),
+    Fault(
+        "a value that is not False stops a run",
+        "progress.py",
+        'return type(answer).__name__ in ("bool", "bool_") and not answer',
+        "return answer is not None and not answer",
+        "tests/test_progress.py",
+    ),
+    Fault(
+        "a callable is heard by itself",
+        "progress.py",
+        "listener, _here.listener = current(), None",
+        "listener = current()",
+        "tests/test_progress.py",
+    ),
+    Fault(
+        "a stop is an error of the filter",
+        "meshset/filter.py",
+        "            if was_raised_by_listener(error):\n                raise\n",
+        "",
+        "tests/meshset/test_progress.py",
+    ),
+    Fault(
+        "a stop is an error of the step",
+        "meshset/play.py",
+        "        if was_raised_by_listener(error):\n            raise\n",
+        "",
+        "tests/meshset/test_progress.py",
+    ),
+    Fault(
+        "what ended while a batch was stopped is not recorded",
+        "batch/runner.py",
+        "                stack.callback(self._record_left_over, own)\n",
+        "",
+        "tests/batch/test_progress.py",
+    ),
+]
+
+FAULTS = [*FILES, *SCRIPTS, *SETS, *COMMANDS, *BATCHES, *PROGRESS]

@@ -82,10 +82,12 @@ from .snapshots import better, descend, extend, finish, snapshot_of
 energy, judge = willmore, None
 # What another energy must gain by a flip to cast doubt on a place.
 DOUBT = 1e-7
-# Shares of the time that is left, measured on scans: of greedy descent, of the better one of two
-# descents, of the first of these two, of chains in regions, of the first chains of a search, and of
-# what may have to be repeated.
-DESCENT, BETTER, FIRST_END, IN_REGIONS, FIRST, REPEATED = 0.02, 0.7, 0.65, 0.9, 0.6, 0.8
+# Shares of the time that is left, measured on scans: of greedy descent, of chains in regions, of
+# the first chains of a search, and of what may have to be repeated.
+DESCENT, IN_REGIONS, FIRST, REPEATED = 0.02, 0.95, 0.75, 0.85
+# The time of chains from each of two ends, from all edges, and that of what follows; and how many
+# times as many vertices as differ the chains look at.
+ENDS, REST, REACH = (1.8, 0.8), 1.25, 40.0
 
 # --- the queue of starts -------------------------------------------------------------------------
 
@@ -231,8 +233,7 @@ def run(kernels, mesh, rules, bvh=None, settings=DEFAULTS):
     begin = snapshot_of(mesh, bvh)
     with stage(DESCENT):
         found = descend(kernels, begin, rules)
-    with stage(DESCENT if begin.bvh.active else BETTER):
-        found = _best_descent(kernels, begin, found, rules, settings)
+    found = _best_descent(kernels, begin, found, rules, settings)
     changed = None
     while found.state == CONVERGED:
         search = functools.partial(_make_chains, kernels, settings=settings, changed=changed)
@@ -268,8 +269,10 @@ def _best_descent(kernels, begin, found, rules, settings):
             near = _where_they_differ(found.mesh, other.mesh)
             limits = settings.limits._replace(breadth=1)
             search = functools.partial(_search, kernels, limits=limits, changed=near)
-            for place, part in enumerate((FIRST_END, 1.0)):
-                with stage(part):
+            reach = min(1.0, REACH * near.mean())
+            for place in range(len(ends)):
+                work = reach * sum(ENDS[place:])
+                with stage(reach * ENDS[place] / (work + REST)):
                     ends[place] = extend(ends[place], search, rules)
         ends[0] = found if ends[0].flips == found.flips else ends[0]
         found = better(kernels, rules, *ends)

@@ -68,7 +68,6 @@ class Listener:
         self._call = call
         self._seconds = seconds
         self._due = -math.inf
-        self._reached = 0.0
 
     def report(self, fraction: float, text: str) -> None:
         """Report how far the innermost stage is, also to the listener around this one."""
@@ -83,12 +82,11 @@ class Listener:
 
     def hear(self, fraction: float, text: str) -> None:
         """Call the callable unless it was called a moment ago; raise `Cancelled` if it says so."""
-        self._reached = max(self._reached, fraction)
         # The call with fraction 1 is the last one.
-        if self._reached >= 1.0 or time.monotonic() < self._due:
+        if fraction >= 1.0 or time.monotonic() < self._due:
             return
-        if _is_false(self._answer(self._reached, text)):
-            self.raised = Cancelled(f"cancelled at {math.floor(100 * self._reached)} % ({text})")
+        if _is_false(self._answer(fraction, text)):
+            self.raised = Cancelled(f"cancelled at {math.floor(100 * fraction)} % ({text})")
             raise self.raised
         self._due = time.monotonic() + self._seconds
 

@@ -332,13 +332,6 @@ PROGRESS = [
         "tests/test_progress.py",
     ),
     Fault(
-        "progress falls by rounding",
-        "progress.py",
-        "self._reached = max(self._reached, fraction)",
-        "self._reached = fraction",
-        "tests/test_progress.py",
-    ),
-    Fault(
         "a stage does not end where the next begins",
         "progress.py",
         "around.reached = max(around.reached, end)",

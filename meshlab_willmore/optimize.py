@@ -27,7 +27,7 @@ from .mesh.validate import (
     to_unit_scale,
 )
 from .options import EnergyName, PassOptions, PresetName, SearchName, VirtualPoint
-from .passes import check_combination, planned
+from .passes import Pass, check_combination, planned
 from .presets import PRESETS
 from .progress import Listen, listening, logged, report, stage
 from .results import FlipResult
@@ -283,7 +283,14 @@ def optimize_flips(
         return _flipped(vertices, faces, plan, locks, limit, keeps_cuts)
 
 
-def _flipped(vertices, faces, plan, locks, limit, keeps_cuts):
+def _flipped(
+    vertices: NDArray[np.float64],
+    faces: NDArray[np.int32],
+    plan: Sequence[Pass],
+    locks: _Locks,
+    limit: int | None,
+    keeps_cuts: bool,
+) -> FlipResult:
     """Return the result for checked arguments."""
     start = time.perf_counter()
     report(0.0, "building the half-edges")

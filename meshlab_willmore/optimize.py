@@ -224,10 +224,11 @@ def optimize_flips(
         them if the limit is reached there.
     progress : callable, optional
         Called with the fraction of the work that is done and a text: at the beginning, then at most
-        ten times a second, and last with exactly 1. The fraction never falls. It is about in
-        proportion to the time; how far it is off, `docs/guide/progress.md` says. If the callable
-        returns False, or raises an exception, the run stops; other values mean nothing. In the
-        last call there is nothing left to stop.
+        ten times a second, and last with exactly 1. The fraction never falls. On scans it differs
+        from the part of the time by 2 to 11 % of the whole in the mean, and by 24 % at most; where
+        there is little to flip, the end comes sooner. If the callable returns False, or raises an
+        exception, the run stops; other values mean nothing. In the last call there is nothing left
+        to stop.
 
     Returns
     -------

@@ -172,7 +172,7 @@ def stage(part: float = 1.0, name: str = "") -> Iterator[None]:
         The share of what is left of the stage around this one, in (0, 1]. Where it is unknown how
         many stages follow, none takes all that is left.
     name : str
-        What comes before the text of the reports inside.
+        What comes before the text of the reports inside, and is reported when the stage begins.
     """
     listener = current()
     if listener is None:
@@ -182,7 +182,8 @@ def stage(part: float = 1.0, name: str = "") -> Iterator[None]:
     end = around.reached + part * (1.0 - around.reached)
     listener.stages.append(_Stage(name, around.reached, end))
     try:
-        listener.report(0.0, "")
+        if name:
+            listener.report(0.0, "")
         yield
         around.reached = max(around.reached, end)
     finally:

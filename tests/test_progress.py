@@ -58,7 +58,6 @@ def test_a_stage_is_a_part_of_the_whole_and_has_a_name():
         (0.25, "start 2 of 3, 5 flips"),
         (0.25, "start 2 of 3, part 1 of 2"),
         (0.375, "start 2 of 3, part 1 of 2, 6 flips"),
-        (0.5, ""),
         (0.625, "late"),
         (1.0, DONE),
     ]

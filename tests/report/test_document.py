@@ -2,6 +2,7 @@
 
 import base64
 import hashlib
+import json
 import re
 from html.parser import HTMLParser
 from types import SimpleNamespace
@@ -12,8 +13,11 @@ import pytest
 
 import meshlab_willmore
 from meshlab_willmore import optimize_flips
+from meshlab_willmore.demo.models import surface_of
+from meshlab_willmore.demo.scan import ScanNotFoundError, scan_file
 from meshlab_willmore.mesh.build import changed_edges
 from meshlab_willmore.report import page
+from meshlab_willmore.report.document import for_script
 from tests import meshes
 
 EVIL = "</script><script>alert(1)</script><img src=x onerror=alert(2)>\"'&"
@@ -106,6 +110,27 @@ def test_nothing_from_outside_becomes_markup(sphere, tmp_path):
     found = elements(tmp_path, (vertices, faces), result, **given)
     assert [tag for tag, _ in found.found] == [tag for tag, _ in plain.found]
     assert found.text.count(EVIL) >= 4
+
+
+def test_data_ends_no_script():
+    text = for_script({EVIL: EVIL})
+    assert "<" not in text
+    assert json.loads(text) == {EVIL: EVIL}
+
+
+@pytest.mark.slow
+def test_pair_of_the_face_scan_takes_three_megabytes_at_most(tmp_path):
+    try:
+        path = scan_file()
+    except ScanNotFoundError as missing:
+        pytest.skip(str(missing))
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(path))
+    vertices, faces = surface_of(ms)
+    assert len(faces) > 166_000
+    result = optimize_flips(vertices, faces, energy="willmore")
+    page((vertices, faces), result, tmp_path / "page.html")
+    assert (tmp_path / "page.html").stat().st_size < 3_000_000
 
 
 def test_policy_allows_the_own_script_and_style_only(sphere, tmp_path):

@@ -125,13 +125,3 @@ def test_energies_are_on_a_logarithmic_scale():
     place = {tuple(p): level for p, level in zip(positions.tolist(), levels, strict=True)}
     order = (vertices * STEPS).astype(int).tolist()
     assert [place[tuple(p)] for p in order] == [0, 0, 1, 128, 255, 255]
-
-
-def test_pair_of_the_face_scan_takes_a_few_bytes_a_face():
-    # As the issue asks of 166,000 faces: 3 MB, in base64 and with pictures, or 18 bytes a face.
-    vertices, faces = meshes.torus(1500, 0.3, 4.0)
-    before = shown(vertices, faces)
-    result = optimize_flips(vertices, faces, energy="willmore")
-    noise = before._replace(faces=result.faces)
-    _, text = packed(before, noise, grid_of(before))
-    assert len(text) < 18 * len(faces)

@@ -23,11 +23,15 @@ if TYPE_CHECKING:
 
     from ..report.table import Entry
 
+# A picture is drawn of so many faces at most.
+MOST_FACES = 1_000_000
+
 COLUMNS = ("Faces", "Flips", "W before", "W after", "W %", "Seconds", "MiB")
 LEGEND = (
     "W: Willmore energy, 0 on spheres and planes. Flips: of all steps. MiB: the most memory of the "
     "worker."
 )
+HINT = "With --report 'pages/{name}.html' each mesh gets a page of its own, in 3D."
 
 
 def surface_of(ms: pymeshlab.MeshSet) -> Surface | None:
@@ -42,7 +46,9 @@ def picture(surface: Surface) -> bytes:
 
     if not np.isfinite(surface.vertices).all():
         return b""
-    return thumbnail.picture(*surface, *PICTURE)
+    # Of more faces, some are enough: they are far smaller than pixels.
+    step = len(surface.faces) // MOST_FACES + 1
+    return thumbnail.picture(surface.vertices, surface.faces[::step], *PICTURE)
 
 
 def write_page(
@@ -54,7 +60,8 @@ def write_page(
 ) -> None:
     """Write the report page of a job, if it has one.
 
-    A mesh that no page can be made of, as it has coordinates that are not finite, gets a note.
+    A mesh that no page can be made of, as it has coordinates that are not finite or is too large
+    for the memory, gets a note.
     """
     from ..report import page
 
@@ -75,7 +82,7 @@ def write_page(
         page(
             before, after, job.page, title=job.name, settings=settings, seconds=seconds, notes=notes
         )
-    except ValueError as error:
+    except (MemoryError, ValueError) as error:
         note(f"{job.page} is not written: {one_line(error)}")
 
 
@@ -114,7 +121,8 @@ def write_table(path: Path, source: str, jobs: Sequence[Job], results: Iterable[
         for result in sorted(results, key=lambda one: order[one.input][0])
     ]
     title = f"{source}, {counted(len(jobs), 'input')}"
-    write(path, table_page(title, "Batch", COLUMNS, entries, LEGEND).encode())
+    legend = LEGEND if any(job.page for job in jobs) else f"{LEGEND} {HINT}"
+    write(path, table_page(title, "Batch", COLUMNS, entries, legend).encode())
 
 
 def _entry(result: Result, path: Path, page: Path | None) -> Entry:

@@ -140,7 +140,8 @@ def document(
         if (is_whole or name in _OF_FEWER_FACES) and (is_same or name != "flips")
     }
     grid = grid_of(*shown)
-    view = thumbnail.view_of(*_surface(after if len(after.faces) else before))
+    seen = after if len(after.faces) else before
+    view = thumbnail.view_of(seen.vertices, seen.faces)
     groups = places.groups(before, after, is_same)
     head, meshes = packed(*shown, grid)
     head |= {
@@ -156,7 +157,7 @@ def document(
         notes=_notes(notes),
         modes=_modes(modes),
         mode_count=len(modes),
-        panes=_panes(before, after, view),
+        panes=_panes(*shown, view),
         alternative=escape(_alternative(found, title)),
         legends=part("legends.html"),
         simplified="" if is_whole else _of_fewer(most, len(shown[1].faces)),
@@ -209,10 +210,6 @@ def _hash(text: str) -> str:
 
 
 # --- what the viewer shows -----------------------------------------------------------------------
-
-
-def _surface(mesh: Examined) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    return mesh.vertices, mesh.faces
 
 
 def _flipped(mesh: Examined, other: Examined) -> NDArray[np.bool_]:
@@ -294,12 +291,12 @@ def _modes(modes: Mapping[str, str]) -> str:
     )
 
 
-def _panes(before: Examined, after: Examined, view: NDArray[np.float64]) -> str:
+def _panes(before: Shown, after: Shown, view: NDArray[np.float64]) -> str:
     panes = []
     for name, mesh in (("Before", before), ("After", after)):
         inside = '<p class="empty">no faces</p>'
         if len(mesh.faces):
-            poster = thumbnail.data_uri(thumbnail.picture(*_surface(mesh), *POSTER, view))
+            poster = thumbnail.data_uri(thumbnail.picture(mesh.vertices, mesh.faces, *POSTER, view))
             inside = f'<img src="{poster}" alt="The mesh {name.lower()}, shaded">'
         panes.append(
             f'<div class="pane"><b>{name}</b>{inside}<span class="ring" hidden></span></div>'

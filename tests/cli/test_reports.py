@@ -11,7 +11,9 @@ from meshlab_willmore import batch
 from meshlab_willmore.batch import pages
 from meshlab_willmore.batch.jobs import Job
 from meshlab_willmore.batch.records import Result, StepResult
+from meshlab_willmore.demo.models import Surface
 from meshlab_willmore.messages import WrongUse
+from tests import meshes
 
 from .conftest import FLIP, TAUBIN, call, cube_file, listing, script_file
 
@@ -204,3 +206,24 @@ def test_batch_from_python_has_them_too():
         list(batch.run(**given, report="all.html"))
     assert [one.status for one in batch.run(**given, report="{name}.html")] == ["done", "done"]
     assert "<h1>two.ply</h1>" in Path("two.html").read_text()
+
+
+def test_picture_of_many_faces_is_one_of_some(monkeypatch):
+    vertices, faces = meshes.bumpy_sphere(2000)
+    whole = pages.picture(Surface(vertices, faces))
+    monkeypatch.setattr(pages, "MOST_FACES", 500)
+    some = pages.picture(Surface(vertices, faces))
+    assert some != whole
+    assert len(some) > len(whole) / 4
+    assert pages.picture(Surface(vertices * float("nan"), faces)) == b""
+
+
+def test_mesh_too_large_for_a_page_is_saved_all_the_same(cube, monkeypatch):
+    def fail(*_given, **_more):
+        raise MemoryError("no room")
+
+    monkeypatch.setattr("meshlab_willmore.report.document.examined", fail)
+    result = call("flip", cube, "out.ply", "--report", "page.html")
+    assert result.exit_code == 0
+    assert result.stderr == "Note: page.html is not written: no room\n"
+    assert listing(".") == ["cube.ply", "out.ply"]

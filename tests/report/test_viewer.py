@@ -13,9 +13,9 @@ MUCH, SEEN = 0.15, 30
 pytestmark = pytest.mark.slow
 
 
-def is_drawn(picture):
-    """Which pixels differ from the ground, whose colour most of the upper rim has."""
-    ground = np.median(picture[4:8].reshape(-1, 3), axis=0)
+def is_drawn(picture, ground=None):
+    """The share of pixels that differ from the ground, which most of the upper rim is."""
+    ground = np.median(picture[4:8].reshape(-1, 3), axis=0) if ground is None else ground
     return (np.abs(picture - ground).max(axis=2) > SEEN).mean()
 
 
@@ -185,4 +185,29 @@ def test_meshes_of_different_vertices_and_without_faces(browse, tmp_path):
         assert is_drawn(before) < 0.05
         assert is_drawn(after) > MUCH
         assert "no faces" in opened.page.inner_text(".pane")
+        assert opened.complaints == []
+
+
+def test_one_finger_turns_and_two_zoom(browse, sphere_page):
+    with browse(sphere_page, 390, has_touch=True, is_mobile=True) as opened:
+        touch = opened.page.context.new_cdp_session(opened.page)
+        opened.page.locator(".stage").scroll_into_view_if_needed()
+        box = opened.page.locator("#canvas").bounding_box()
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 4
+
+        def seen_after(*moves):
+            for kind, points in zip(("touchStart", "touchMove", "touchEnd"), moves, strict=True):
+                fingers = [{"x": x + dx, "y": y, "id": n} for n, dx in enumerate(points)]
+                touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": fingers})
+            opened.settle()
+            return opened.picture(".pane")
+
+        start = opened.picture(".pane")
+        turned = seen_after([0], [60], [])
+        assert differs(start, turned) > 0.02
+        assert is_drawn(turned) == pytest.approx(is_drawn(start), abs=0.05)
+        ground = turned[60, 4]
+        near = seen_after([-30, 30], [-50, 50], [])
+        assert is_drawn(near, ground) > 1.3 * is_drawn(turned)
+        assert is_drawn(seen_after([-50, 50], [-30, 30], []), ground) < 0.8 * is_drawn(near, ground)
         assert opened.complaints == []

@@ -56,9 +56,10 @@ def write_page(
     surfaces: tuple[Surface | None, Surface | None],
     steps: Sequence[Step] | bytes,
     returned: Sequence[StepResult],
+    seconds: float,
     notes: Sequence[str],
 ) -> None:
-    """Write the report page of a job, if it has one.
+    """Write the report page of a job, if it has one; the seconds are those of all steps.
 
     A mesh that no page can be made of, as it has coordinates that are not finite or is too large
     for the memory, gets a note.
@@ -77,7 +78,6 @@ def write_page(
         "Outputs": ", ".join(output.name for output in job.outputs) or "none",
         **{name: number for name, number in versions().items() if name != "meshlab_willmore"},
     }
-    seconds = sum(one.seconds for one in returned) or None
     try:
         page(
             before, after, job.page, title=job.name, settings=settings, seconds=seconds, notes=notes

@@ -119,7 +119,9 @@ def do(work: Work, say: Say) -> Made:
         _send_picture(work, surface, say)
         with lost_kernels.noted():
             before = _measures(ms, work)
+            start = time.perf_counter()
             returned, steps = _steps(work, ms, begin)
+            seconds = time.perf_counter() - start
         if work.dry_run:
             return Made((), (), steps, before, None)
         begin(SAVING)
@@ -130,7 +132,7 @@ def do(work: Work, say: Say) -> Made:
         if surface is not None:
             result = pages.surface_of(ms)
             _send_picture(work, result, say)
-            pages.write_page(work.job, (surface, result), work.steps, returned, notes)
+            pages.write_page(work.job, (surface, result), work.steps, returned, seconds, notes)
     return Made(outputs, tuple(returned), steps, before, after)
 
 

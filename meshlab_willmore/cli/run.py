@@ -333,7 +333,7 @@ def _write_page(
     results = [StepResult(p.number, p.name, p.seconds, p.returned) for p in played if p.returned]
     with progress.shown(job.name) as status:
         status.begin(f"writing {job.page}")
-        write_page(job, surfaces, options.steps, results, notes)
+        write_page(job, surfaces, options.steps, results, sum(p.seconds for p in played), notes)
 
 
 def _load(job: Job) -> pymeshlab.MeshSet:

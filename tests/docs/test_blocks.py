@@ -37,9 +37,10 @@ def run_python(text, names, where):
 
 
 def run_shell(text, path):
+    """Run a block in the working folder, which is the user's home, too."""
     done = subprocess.run(
         ["bash", "-euo", "pipefail", "-c", text],
-        env={**os.environ, "PATH": path},
+        env={**os.environ, "PATH": path, "HOME": str(Path.cwd())},
         text=True,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,

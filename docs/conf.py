@@ -86,7 +86,6 @@ html_theme_options = {
 
 def setup(app):
     app.add_directive("filter-reference", site_parts.FilterReference)
-    app.add_directive("command-table", site_parts.CommandTable)
     app.connect("sphinx-click-process-description", site_parts.plain_text)
     app.connect("sphinx-click-process-options", site_parts.plain_options)
     app.connect("sphinx-click-process-epilog", site_parts.examples_as_code)

@@ -7,8 +7,6 @@ from matplotlib.figure import Figure
 from sphinx.util.docutils import SphinxDirective
 from sphinx_gallery.scrapers import figure_rst
 
-from meshlab_willmore.cli import main
-
 
 class FilterReference(SphinxDirective):
     """The parameters and returns of the filter that the argument names, as lists."""
@@ -17,14 +15,6 @@ class FilterReference(SphinxDirective):
 
     def run(self):
         return self.parse_text_to_nodes(described(self.arguments[0]))
-
-
-class CommandTable(SphinxDirective):
-    """The commands, each with what it does."""
-
-    def run(self):
-        rows = [f"| `{name}` | {command.short_help} |" for name, command in main.commands.items()]
-        return self.parse_text_to_nodes("\n".join(["| command | does |", "|---|---|", *rows]))
 
 
 def figure_scraper(_, block_vars, gallery_conf):

@@ -23,11 +23,14 @@ def demo_files(tmp_path_factory):
 
 @pytest.fixture
 def checkout(demo_files, tmp_path):
-    """A checkout with the environment of this Python in it, the demo's meshes, and a scan."""
+    """A checkout with the environment of this Python in it, the demo's meshes, and scans."""
     folder = tmp_path / "checkout"
     shutil.copytree(ROOT / "filter_scripts", folder / "filter_scripts")
     shutil.copytree(demo_files, folder / "willmore-demo")
-    shutil.copy(demo_files / "face-before.ply", folder / "scan.ply")
+    (folder / "scans").mkdir()
+    for name in ("scan.ply", "scans/a.ply", "scans/b.ply"):
+        shutil.copy(demo_files / "face-before.ply", folder / name)
+    shutil.copy(ROOT / "filter_scripts" / "clean_and_flip.mlx", folder / "clean.mlx")
     activate = folder / ".venv" / "bin" / "activate"
     activate.parent.mkdir(parents=True)
     activate.write_text(f'PATH="{Path(sys.executable).parent}:$PATH"\n', encoding="utf-8")

@@ -92,8 +92,9 @@ def test_the_reference_has_all_commands_and_functions(site):
             for spelling in parameter.opts if parameter.param_type_name == "option" else ():
                 assert getattr(parameter, "hidden", False) or spelling in text
     arrays = shown(site / "reference" / "arrays.html")
-    for name in set(meshlab_willmore.__all__) - {"__version__", "batch", "script"}:
+    for name in set(meshlab_willmore.__all__) - {"__version__", "batch", "report", "script"}:
         assert name in arrays
+    assert "report.page(" in shown(site / "reference" / "reports.html")
     scripts = shown(site / "reference" / "scripts.html")
     for name in meshlab_willmore.script.__all__:
         assert name in scripts

@@ -119,6 +119,9 @@ def test_what_depends_on_the_mesh_is_found_for_native_filters_too():
     text = call("filters", "generate_resampled_uniform_mesh", "--mlx").stdout
     assert '<!-- This default depends on the mesh:\n  <Param name="CellSize" ' in text
     assert '\n  <Param name="mergeCloseVert" type="RichBool" value="false"/>\n' in text
+    # It is on where faces are selected.
+    text = call("filters", "Taubin Smooth", "--mlx").stdout
+    assert '<!-- This default depends on the mesh:\n  <Param name="Selected" ' in text
 
 
 def test_a_step_is_printed_of_one_filter_only():

@@ -7,7 +7,7 @@ import subprocess
 import click
 import pytest
 
-from meshlab_willmore.cli import main
+from meshlab_willmore.cli import main, manual
 
 from .conftest import call
 
@@ -35,8 +35,14 @@ def test_page_has_all_commands_options_and_examples():
 
 
 def test_no_text_is_taken_for_a_request():
+    assert manual._escaped(".nf") == r"\&.nf"
     requests = {line.split()[0] for line in call("manual").stdout.splitlines() if line[:1] == "."}
     assert requests <= {".TH", ".SH", ".SS", ".B", ".PP", ".TP", ".nf", ".fi", ".nh", ".ad"}
+
+
+def test_hyphens_can_be_copied():
+    _, _, body = call("manual").stdout.partition("\n")
+    assert re.search(r"(?<!\\)-", body) is None
 
 
 @pytest.mark.skipif(not shutil.which("man"), reason="there is no man")

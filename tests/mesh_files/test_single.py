@@ -1,5 +1,6 @@
 """Single precision in PLY files: the vertices' numbers change, and nothing else."""
 
+import struct
 from pathlib import Path
 
 import numpy as np
@@ -7,6 +8,7 @@ import pymeshlab
 import pytest
 
 from meshlab_willmore.mesh_files.saving import SaveOptions, save
+from meshlab_willmore.mesh_files.single import to_single
 from tests.cli.conftest import SAMPLES, listing
 
 
@@ -75,3 +77,39 @@ def test_empty_elements_are_kept(tmp_path):
     ms.add_mesh(pymeshlab.Mesh(np.eye(3)))
     save(ms, tmp_path / "a.ply", SaveOptions(is_single=True))
     assert np.array_equal(mesh_of(tmp_path / "a.ply")["vertices"], np.eye(3))
+
+
+@pytest.mark.parametrize("is_text", [False, True])
+def test_elements_before_and_after_the_vertices_are_copied(tmp_path, is_text):
+    kind = "ascii" if is_text else "binary_little_endian"
+    header = [
+        "ply",
+        f"format {kind} 1.0",
+        "element camera 1",
+        "property double view",
+        "element vertex 4",
+        "property double x",
+        "property int flags",
+        "element face 2",
+        "property list uchar int vertex_indices",
+        "property double quality",
+        "end_header",
+    ]
+    text = "\n".join(header).encode() + b"\n"
+    x = [0.1, 1e-50, 3.0, -1 / 3]
+    faces = [((0, 1, 2, 3), 0.2), ((0, 1, 2), 0.1)]
+    if is_text:
+        camera, after = b"0.1\n", b"4 0 1 2 3 0.2\n3 0 1 2 0.1\n"
+        before = b"".join(f"{value!r} 7\n".encode() for value in x)
+        wanted = b"0.1 7\n0.0 7\n3.0 7\n-0.33333334 7\n"
+    else:
+        camera = struct.pack("<d", 0.1)
+        after = b"".join(
+            struct.pack(f"<B{len(face)}id", len(face), *face, value) for face, value in faces
+        )
+        before = b"".join(struct.pack("<di", value, 7) for value in x)
+        wanted = b"".join(struct.pack("<fi", value, 7) for value in x)
+    path = tmp_path / "a.ply"
+    path.write_bytes(text + camera + before + after)
+    to_single(path)
+    assert path.read_bytes() == (text.replace(b"double x", b"float x") + camera + wanted + after)

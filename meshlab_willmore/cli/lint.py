@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,7 +12,7 @@ from ..mesh_files.paths import matches, refuse_folder
 from ..messages import WrongUse, counted
 from .completion import files
 from .errors import debug_option, with_commands
-from .scripts import STANDARD_STREAM, read_script
+from .scripts import STANDARD_STREAM, read_script, shipped_scripts
 
 if TYPE_CHECKING:
     from ..meshset.check import Findings
@@ -88,6 +89,8 @@ def _written(fault: Fault) -> str:
 def _examined(path: Path) -> Findings:
     from ..script import examined
 
-    if str(path) == STANDARD_STREAM:
-        return read_script(STANDARD_STREAM).examined()
+    name = str(path)
+    is_shipped = name in shipped_scripts() and not os.path.lexists(path)
+    if name == STANDARD_STREAM or is_shipped:
+        return read_script(name).examined()
     return examined(path)

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from ..mesh_files.formats import COMMON
 from ..mesh_files.paths import refuse_folder
 from ..messages import WrongUse, note
 
@@ -52,6 +53,11 @@ def read_script(name: str) -> Script:
         # Python has no such stream where it is closed.
         return Script("standard input", sys.stdin.buffer.read(LARGEST + 1) if sys.stdin else b"")
     refuse_folder(Path(name), "script", "clean.mlx")
+    if Path(name).suffix.lower().lstrip(".") in COMMON:
+        raise WrongUse(
+            f"{name} is a mesh by its name, no filter script; to convert meshes, write: "
+            f"meshlab-willmore run -i {name} -o OUT"
+        )
     if os.path.lexists(name):
         return Script(name, bytes_of(Path(name)))
     shipped = shipped_scripts().get(name)

@@ -80,6 +80,23 @@ def test_other_names_are_files_only(cube, name):
     assert "'meshlab-willmore scripts' lists" in result.stderr
 
 
+def test_lint_and_convert_find_them_too():
+    assert call("lint", "flip.mlx").stdout == "flip.mlx: ok, 1 step\n"
+    assert call("convert", "flip.mlx", "mine.mlx").exit_code == 0
+    assert call("lint", "mine.mlx").exit_code == 0
+
+
+@pytest.mark.usefixtures("cube")
+@pytest.mark.parametrize("command", [["convert", "cube.ply", "a.obj"], ["run", "cube.ply"]])
+def test_a_mesh_in_place_of_a_script_points_to_conversion(command):
+    result = call(*command)
+    assert result.exit_code == 2
+    assert result.stderr == (
+        "Error: cube.ply is a mesh by its name, no filter script; to convert meshes, write: "
+        "meshlab-willmore run -i cube.ply -o OUT\n"
+    )
+
+
 def test_installed_scripts_are_inside_the_package(monkeypatch, tmp_path):
     package = tmp_path / "site-packages" / "meshlab_willmore"
     (package / "filter_scripts").mkdir(parents=True)

@@ -23,7 +23,7 @@ def script_with(known: FilterInfo) -> str:
 
     What depends on the mesh is in comments, as a step that gives it has the same for all meshes.
     """
-    first, second = (_defaults(known, size) for size in (1.0, 2.0))
+    first, second = (_script_defaults(known, size) for size in (1.0, 2.0))
     lines = ["<!DOCTYPE FilterScript>", "<FilterScript>"]
     name = known.meshlab_name or known.name
     lines.append(f' <filter name="{_escaped(name)}">')
@@ -39,7 +39,7 @@ def script_with(known: FilterInfo) -> str:
 
 def element_of(known: FilterInfo, own: ParamInfo) -> str:
     """The element of a parameter with its default, in one line."""
-    value = _defaults(known, 1.0).get(own.keyword)
+    value = _script_defaults(known, 1.0).get(own.keyword)
     return f"<Param {' '.join(_attributes(own, value))}/>"
 
 
@@ -91,7 +91,7 @@ def _plain(own: ParamInfo, value: Any) -> Any:
     return tuple(value.ravel().tolist()) if hasattr(value, "ravel") else value
 
 
-def _defaults(known: FilterInfo, size: float) -> dict[str, Any]:
+def _script_defaults(known: FilterInfo, size: float) -> dict[str, Any]:
     """The defaults as scripts hold them."""
     from ..meshset.filters import BY_NAME
     from ..mlx.steps import Percentage

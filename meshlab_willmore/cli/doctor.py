@@ -11,6 +11,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import textwrap
 from collections.abc import Sequence
 from importlib import metadata
 from pathlib import Path
@@ -25,6 +26,7 @@ from ..messages import counted
 from . import progress
 from .arguments import json_option
 from .errors import debug_option
+from .text import WIDTH
 
 EXAMPLES = """\b
 Examples:
@@ -46,6 +48,7 @@ WARM_UP = "meshlab-willmore warmup"
 ROOM_WANTED = 200 * 2**20
 # How many names a message lists.
 _NAMED = 6
+_INDENT = "     "
 
 
 class Finding(NamedTuple):
@@ -85,8 +88,15 @@ def command(as_json: bool) -> None:
 
 
 def _line(finding: Finding) -> str:
-    line = f"{'ok ' if finding.ok else 'BAD'}  {finding.name}: {finding.text}"
-    return line if finding.ok else f"{line}\n     fix: {finding.cure}"
+    text = textwrap.fill(
+        f"{'ok ' if finding.ok else 'BAD'}  {finding.name}: {finding.text}",
+        WIDTH,
+        subsequent_indent=_INDENT,
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
+    # A command stays in one line, from which it can be copied.
+    return text if finding.ok else f"{text}\n{_INDENT}fix: {finding.cure}"
 
 
 # --- checks ------------------------------------------------------------------------------------

@@ -38,6 +38,17 @@ def test_all_checks_pass(monkeypatch):
     assert (result.exit_code, result.stdout) == (0, "ok   one: is fine\nAll checks passed.\n")
 
 
+def test_findings_fit_80_columns_and_fixes_stay_in_one_line(monkeypatch):
+    text = " ".join(["some-long-word"] * 12)
+    bad = Finding("two", False, text, f"command {text}")
+    monkeypatch.setattr(doctor, "CHECKS", (lambda: bad,))
+    *lines, fix, _ = call("doctor").stdout.splitlines()
+    assert max(map(len, lines)) <= 80
+    assert " ".join(" ".join(lines).split()) == f"BAD two: {text}"
+    assert all(line.startswith("     some-long-word") for line in lines[1:])
+    assert fix == f"     fix: command {text}"
+
+
 def test_failed_check_has_a_fix(monkeypatch):
     bad = Finding("two", False, "is gone", "apt-get install two")
     monkeypatch.setattr(doctor, "CHECKS", (lambda: Finding("one", True, "is fine"), lambda: bad))

@@ -10,6 +10,7 @@ import pytest
 from meshlab_willmore import batch
 from meshlab_willmore.mesh_files.projects import save_project
 from meshlab_willmore.mesh_files.saving import SaveOptions
+from meshlab_willmore.messages import notes_taken_by
 
 from .conftest import (
     FLIP,
@@ -234,3 +235,15 @@ def test_only_run_takes_projects(arguments, line):
     result = call(*arguments)
     assert result.exit_code in (1, 2)
     assert result.stderr.startswith(f"Error: {line}")
+
+
+def test_images_of_a_project_are_a_noted_loss():
+    Path("pixel.png").write_bytes(ONE_PIXEL)
+    ms = pymeshlab.MeshSet()
+    ms.create_cube()
+    ms.load_new_raster("pixel.png")
+    notes = []
+    with notes_taken_by(notes.append):
+        save_project(ms, Path("out.mlp"), SaveOptions())
+    assert notes == ["out.mlp: the project's images (rasters) are not written: 1"]
+    assert len(layers_of("out.mlp")) == 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import shutil
 import sys
@@ -46,15 +47,14 @@ def wrapped_table(rows: Sequence[Sequence[str]], legend: str) -> str:
     """
     window = shutil.get_terminal_size().columns
     names, *columns = zip(*rows, strict=True)
-    blocks: list[list[Sequence[str]]] = [[names]]
-    for column in columns:
-        block = [*blocks[-1], column]
-        is_too_wide = sum(_column_width(c) for c in block) + len(GAP) * (len(block) - 1) > window
-        if is_too_wide and len(blocks[-1]) > 1:
-            blocks.append([names, column])
-        else:
-            blocks[-1] = block
-    texts = [table([*zip(*block, strict=True)], "") for block in blocks]
+    room = max(window - _column_width(names), 0)
+    # As few blocks as possible, with about the same number of columns each.
+    for count in range(1, len(columns) + 1):
+        size = math.ceil(len(columns) / count)
+        blocks = [columns[start : start + size] for start in range(0, len(columns), size)]
+        if all(sum(len(GAP) + _column_width(c) for c in block) <= room for block in blocks):
+            break
+    texts = [table([*zip(names, *block, strict=True)], "") for block in blocks]
     return "\n".join([*texts, legend])
 
 

@@ -102,6 +102,19 @@ def test_table_in_80_columns_has_the_last_columns_below(cube, rows):
         assert "0.671" in second
 
 
+def test_blocks_of_a_table_have_about_as_many_columns(cube, rows):
+    lines = call("compare", cube, *CHOSEN).stdout.splitlines()
+    heads = [line.split() for line in lines if line.startswith("   ")]
+    assert heads == [["flips", "W", "area", "|K|", "M"], ["worst", "mean", "cuts", "seconds"]]
+
+
+def test_every_column_is_shown_in_a_window_that_is_too_narrow(cube, rows, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "20")
+    lines = call("compare", cube, *CHOSEN).stdout.splitlines()
+    heads = [line.split() for line in lines if line.startswith("   ")]
+    assert [len(head) for head in heads] == [1] * 9
+
+
 @pytest.mark.usefixtures("wide_window")
 def test_table_layout(cube, rows):
     rows["becomes"][NAMES[1]] = compare_row.Outcome(timed_out=True)

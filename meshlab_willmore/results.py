@@ -64,12 +64,12 @@ class FlipResult(NamedTuple):
         willmore", by the option `monotone`: if True, flips that raise the Willmore energy, if
         False, flips to an edge that was flipped away before. So other flips may be left that lower
         the energy. A second run from the result makes no flip, except: with `monotone` False; with
-        "annealing" and "thorough", which may find more; with "variable depth" in rare cases (2 of
-        10,000 fuzzed runs), and where flips tie, as their order, which then decides, depends on
-        that of the faces; with `featuredeg` and `maxdeviation`, as creases are found in the input,
-        and deviations are counted from it; with several passes, as each undoes flips of another;
-        and where flips that keep the Willmore energy go in circles, which the search stops after
-        ten rounds.
+        "annealing" and "thorough", which may find more; with "variable depth" where flips tie or
+        `maxflips` came first, as the way along another energy, which it tries too, may then end
+        lower; with `featuredeg` and `maxdeviation`, as creases are found in the input, and
+        deviations are counted from it; with several passes, as each undoes flips of another; and
+        where flips that keep the Willmore energy go in circles, which the search stops after ten
+        rounds.
     reason : str
         Why it stopped.
     corners : (m, 3) int32

@@ -195,14 +195,31 @@ def _is_joined(state, h, length):
 
 
 @inner
+def _is_lower(mesh, one, other):
+    """Whether the edge of the half-edge `one` has lower vertices than that of `other`."""
+    a, b = mesh.origin[one], mesh.origin[following(one)]
+    c, d = mesh.origin[other], mesh.origin[following(other)]
+    low, other_low = min(a, b), min(c, d)
+    return low < other_low or (low == other_low and max(a, b) < max(c, d))
+
+
+@inner
 def _offer(state, s, h, score):
-    """Sort `h` into the candidates of step `s`, after those of the same rank."""
+    """Sort `h` into the candidates of step `s`; of those of the same rank by its vertices.
+
+    So the order does not depend on that of the faces, which is another one in a second run.
+    """
     chain, step = state.chain, state.rules.rank_step
     place = chain.offered[s]
     chain.offered[s] += 1
     # In steps, so that rounding does not decide between edges that are equal by symmetry.
     rank = np.rint(score / step)
-    while place > 0 and np.rint(chain.score[s, place - 1] / step) < rank:
+    while place > 0:
+        other = np.rint(chain.score[s, place - 1] / step)
+        if other > rank:
+            break
+        if other == rank and not _is_lower(state.mesh, h, np.int64(chain.candidate[s, place - 1])):
+            break
         chain.score[s, place] = chain.score[s, place - 1]
         chain.candidate[s, place] = chain.candidate[s, place - 1]
         place -= 1

@@ -60,7 +60,7 @@ class Scan:
     def explore(self, mesh, candidates, chain, made, width):
         """Follow the first `width` allowed candidates; True once a chain through one helps."""
         ranked = sorted(
-            (-np.rint(self.rank(mesh, h) / self.rules.rank_step), place, h)
+            (-np.rint(self.rank(mesh, h) / self.rules.rank_step), sorted(ends(mesh, h)), place, h)
             for place, h in enumerate(candidates)
             if ends(mesh, h) not in made and self.allowed(mesh, h)
         )
@@ -68,13 +68,13 @@ class Scan:
         if not (last and chain):
             lost = -math.fsum(entry[1] for entry in chain)
             ranked = [
-                entry for entry in ranked if lost - self.judge(mesh, entry[2]) <= table.MOST_LOSS
+                entry for entry in ranked if lost - self.judge(mesh, entry[-1]) <= table.MOST_LOSS
             ]
         # The last step is free, so that all edges may be tried: in the order of the ring.
         if last and chain:
-            ranked.sort(key=lambda entry: entry[1])
+            ranked.sort(key=lambda entry: entry[2])
             width = len(ranked)
-        for _, _, h in ranked[:width]:
+        for *_, h in ranked[:width]:
             longer = [*chain, (h, self.judge(mesh, h), willmore.cost_reduction(mesh, h))]
             drop = math.fsum(entry[1] for entry in longer)
             rise = -math.fsum(entry[2] for entry in longer)

@@ -160,6 +160,9 @@ def find_losses(mesh, rules, first, losses):
 
     Parameters
     ----------
+    mesh : Mesh
+    rules : Rules
+    first : int
     losses : (s,) float64
         Overwritten, for s half-edges: 0 where a flip is not allowed or no loss.
     """

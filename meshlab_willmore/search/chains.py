@@ -11,13 +11,13 @@ from ..energy import willmore
 from ..guards import add_deviation
 from ..guards.bvh import Bvh, refit
 from ..mesh.halfedge import NONE, Mesh, apex, flip, following, is_free
-from ..mesh.jit import generic, inner
+from ..mesh.jit import inlined, inner
 
 # Numba keeps no kernel on disk that hands on a function of its own module by its plain name.
 from . import chains, stencil
 from .containers import Fifo
+from .costs import find_gains
 from .rules import ALLOWED, INTERSECTS, Rules, refusal_by_all
-from .scoring import gain_of
 from .stencil import RING
 
 # The part of the largest of several numbers that the rounding of their sum stays below.
@@ -62,6 +62,8 @@ class Chain(NamedTuple):
         Half-edges around the last flip.
     ring_size : (1,) int64
         Their number.
+    ring_gain : (12,) float64
+        What those that are free gain, as ranked.
     best : (D,) int32
         Half-edges of the best prefix.
     floor : (1,) float64
@@ -83,6 +85,7 @@ class Chain(NamedTuple):
     tried: np.ndarray
     ring: np.ndarray
     ring_size: np.ndarray
+    ring_gain: np.ndarray
     best: np.ndarray
     floor: np.ndarray
 
@@ -93,6 +96,10 @@ class ChainState(NamedTuple):
     Attributes
     ----------
     mesh : Mesh
+    energy : int
+        Number of the one that ranks, in `meshlab_willmore.search.costs`.
+    judges : bool
+        Whether it also judges; else the Willmore energy does.
     queue : Fifo
         Starts of chains, the lower half-edge of each edge.
     chain : Chain
@@ -107,6 +114,8 @@ class ChainState(NamedTuple):
     """
 
     mesh: Mesh
+    energy: int
+    judges: bool
     queue: Fifo
     chain: Chain
     changed: np.ndarray
@@ -152,6 +161,7 @@ def empty_chain(limits, most_loss=np.inf):
         tried=np.zeros(depth, np.int64),
         ring=np.empty(RING, np.int32),
         ring_size=np.zeros(1, np.int64),
+        ring_gain=np.empty(RING),
         best=np.empty(depth, np.int32),
         floor=np.full(1, -most_loss),
     )
@@ -194,54 +204,73 @@ def _is_joined(state, h, length):
     return False
 
 
-@inner
-def _is_lower(mesh, one, other):
+@inlined
+def _is_lower(origin, one, other):
     """Whether the edge of the half-edge `one` has lower vertices than that of `other`."""
-    a, b = mesh.origin[one], mesh.origin[following(one)]
-    c, d = mesh.origin[other], mesh.origin[following(other)]
+    a, b = origin[one], origin[following(one)]
+    c, d = origin[other], origin[following(other)]
     low, other_low = min(a, b), min(c, d)
     return low < other_low or (low == other_low and max(a, b) < max(c, d))
 
 
 @inner
-def _offer(state, s, h, score):
-    """Sort `h` into the candidates of step `s`; of those of the same rank by its vertices.
+def _score_ring(mesh, energy, place, ring, count, gains):
+    """Move those of the first `count` edges of a ring that are free to its front, and score them.
 
-    So the order does not depend on that of the faces, which is another one in a second run.
+    Returns
+    -------
+    int
+        Their number.
     """
-    chain, step = state.chain, state.rules.rank_step
-    place = chain.offered[s]
-    chain.offered[s] += 1
-    # In steps, so that rounding does not decide between edges that are equal by symmetry.
-    rank = np.rint(score / step)
-    while place > 0:
-        other = np.rint(chain.score[s, place - 1] / step)
-        if other > rank:
-            break
-        if other == rank and not _is_lower(state.mesh, h, np.int64(chain.candidate[s, place - 1])):
-            break
-        chain.score[s, place] = chain.score[s, place - 1]
-        chain.candidate[s, place] = chain.candidate[s, place - 1]
-        place -= 1
-    chain.score[s, place] = score
-    chain.candidate[s, place] = h
-
-
-@generic
-def _find_candidates(state, count, s, ranking):
-    """Fill the candidates of step `s` from the first `count` half-edges of the ring."""
-    mesh, chain = state.mesh, state.chain
-    chain.offered[s] = chain.seen[s] = chain.tried[s] = 0
-    for place in range(count):
-        h = chain.ring[place]
+    free = 0
+    for s in range(count):
+        h = np.int64(ring[s])
         if is_free(mesh, h):
-            score = gain_of(ranking.cost_reduction, mesh, h, state.rules)
-            if score > -np.inf:
-                _offer(state, s, h, score)
+            ring[free] = h
+            free += 1
+    find_gains(energy, mesh, ring, free, place, gains)
+    return free
 
 
-@generic
-def _next_candidate(state, s, judge):
+@inner
+def _sort_candidates(chain, origin, count, s, step):
+    """Fill the candidates of step `s` from the first `count` edges of the ring, which are scored.
+
+    Those of the same rank go by their vertices: so the order does not depend on that of the faces,
+    which is another one in a second run.
+    """
+    ring, gains, score, candidate = chain.ring, chain.ring_gain, chain.score, chain.candidate
+    offered = 0
+    for found in range(count):
+        h, gain = np.int64(ring[found]), gains[found]
+        if not gain > -np.inf:
+            continue
+        # In steps, so that rounding does not decide between edges that are equal by symmetry.
+        rank, place = np.rint(gain / step), offered
+        while place > 0:
+            other, before = np.rint(score[s, place - 1] / step), np.int64(candidate[s, place - 1])
+            if other > rank or (other == rank and not _is_lower(origin, h, before)):
+                break
+            score[s, place] = score[s, place - 1]
+            candidate[s, place] = before
+            place -= 1
+        score[s, place] = gain
+        candidate[s, place] = h
+        offered += 1
+    chain.offered[s] = offered
+    chain.seen[s] = chain.tried[s] = 0
+
+
+@inner
+def _find_candidates(state, count, s):
+    """Fill the candidates of step `s` from the first `count` half-edges of the ring."""
+    mesh, chain, rules = state.mesh, state.chain, state.rules
+    free = _score_ring(mesh, state.energy, rules.virtualpoint, chain.ring, count, chain.ring_gain)
+    _sort_candidates(chain, mesh.origin, free, s, rules.rank_step)
+
+
+@inner
+def _next_candidate(state, s):
     """Return the place of the best candidate of step `s` not tried yet that is allowed, or NONE.
 
     Also what it gains as judged, which is finite: no chain has a flip with an undefined angle.
@@ -251,7 +280,9 @@ def _next_candidate(state, s, judge):
         place = chain.seen[s]
         chain.seen[s] += 1
         h = np.int64(chain.candidate[s, place])
-        drop = chain.score[s, place] if judge is None else judge.cost_reduction(state.mesh, h)
+        drop = chain.score[s, place]
+        if not state.judges:
+            drop = willmore.cost_reduction(state.mesh, h)
         if not (np.isfinite(drop) and chain.drop[s] + drop >= chain.floor[0]):
             continue
         if not _is_joined(state, h, s) and _may_flip(state, h):
@@ -322,22 +353,20 @@ def _undo(state, s):
     mesh.deviation[t // 3] = chain.deviation[s, 1]
 
 
-@generic
-def _finish(state, count, s, best, ranking, judge):
+@inner
+def _finish(state, count, s, best):
     """Return the best prefix when step `s`, the last one, is any of `count` edges of the ring.
 
     Nothing comes after these flips, so they need not be made to know what they are worth, and
     whether they are allowed is asked only where they are worth enough.
     """
     mesh, chain, rules = state.mesh, state.chain, state.rules
-    for place in range(count):
-        h = chain.ring[place]
-        if not is_free(mesh, h):
-            continue
-        score = gain_of(ranking.cost_reduction, mesh, h, rules)
+    free = _score_ring(mesh, state.energy, rules.virtualpoint, chain.ring, count, chain.ring_gain)
+    for place in range(free):
+        h, score = np.int64(chain.ring[place]), chain.ring_gain[place]
         if not score > -np.inf:
             continue
-        drop = score if judge is None else judge.cost_reduction(mesh, h)
+        drop = score if state.judges else willmore.cost_reduction(mesh, h)
         if not chain.drop[s] + drop > best.drop + rules.tolerance:
             continue
         if not _is_joined(state, h, s) and _may_flip(state, h):
@@ -346,8 +375,8 @@ def _finish(state, count, s, best, ranking, judge):
     return best
 
 
-@generic
-def find_chain(state, start, ranking, judge):
+@inner
+def find_chain(state, start):
     """Find a chain that starts with the flip of `start` and lowers the energy.
 
     Parameters
@@ -356,8 +385,6 @@ def find_chain(state, start, ranking, judge):
         The mesh is the same afterwards. ``chain.best`` is overwritten.
     start : int
         Half-edge with a twin.
-    ranking, judge : module
-        Energies; a judge of None: the one that ranks is also the judge.
 
     Returns
     -------
@@ -374,11 +401,11 @@ def find_chain(state, start, ranking, judge):
     while True:
         if is_new:
             work += count
-            _find_candidates(state, count, s, ranking)
+            _find_candidates(state, count, s)
             is_new = False
         place, drop = NONE, 0.0
         if work < MOST_WORK:
-            place, drop = _next_candidate(state, s, judge)
+            place, drop = _next_candidate(state, s)
         if place != NONE:
             h = np.int64(chain.candidate[s, place])
             _add(state, h, s, chain.score[s, place], drop)
@@ -392,7 +419,7 @@ def find_chain(state, start, ranking, judge):
                 is_new = True
                 continue
             work += count
-            best = _finish(state, count, s, best, ranking, judge)
+            best = _finish(state, count, s, best)
         elif s == 0:
             return best, work
         # This way is explored: one step back, or all the way once it was worth it.

@@ -1,46 +1,50 @@
-"""The compiled searches, one set of kernels for each energy.
+"""What the searches have to know of each energy: its number, and kernels of its own.
 
-A search is written once, as a plain function that names the modules `energy` and `judge`, globals
-of its own module. Numba never finds a kernel in its cache that takes another one as an argument. So
-each energy gets a copy of that function in which these names mean other modules, compiled under a
-name of its own.
+Most of the searches is compiled once for all energies, and asks for one of them by its number. What
+scores many edges at once, or single ones, is compiled for each energy: a copy in which the names
+`energy` and `judge` mean its modules.
 """
 
 import functools
 import importlib
 from collections.abc import Callable
-from types import FunctionType, ModuleType
+from types import ModuleType
 from typing import NamedTuple
 
 from ..energy import willmore
 from ..energy.table import AT, ENERGIES, VIRTUAL_POINTS
 from ..mesh.jit import jit
-from . import annealing, greedy, scoring, variable_depth
+from . import annealing, costs, scoring
+from .copies import copy_of
 
 
 class Kernels(NamedTuple):
-    """The compiled searches for one energy.
+    """An energy, as the searches ask for it.
 
     Attributes
     ----------
     energy : module
         With the cost reduction that the greedy flips go by.
-    greedy, depth, anneal : callable
-        The slices of the searches.
+    number : int
+        Of this energy, in `meshlab_willmore.search.costs`.
+    judges : bool
+        Whether it also judges. The virtual Willmore energy, which is no function of the mesh, does
+        not: the Willmore energy does.
+    anneal : callable
+        `meshlab_willmore.search.annealing.anneal` for the energy that judges.
     score : callable
         Scores many edges, for `meshlab_willmore.search.parallel_greedy`.
     losses : callable
-        `meshlab_willmore.search.annealing.find_losses`.
+        `meshlab_willmore.search.annealing.find_losses`, likewise.
     total : callable
-        The energy of a mesh that judges: the Willmore energy for the virtual one, which is no
-        function of the mesh, else the energy itself.
+        The energy of a mesh that judges.
     most_loss : float
         What chains of flips may lose of it on their way.
     """
 
     energy: ModuleType
-    greedy: Callable
-    depth: Callable
+    number: int
+    judges: bool
     anneal: Callable
     score: Callable
     losses: Callable
@@ -48,34 +52,27 @@ class Kernels(NamedTuple):
     most_loss: float
 
 
-def specialised(template, energy, judge=None):
-    """Return a copy of a search in which `energy` and `judge` are these modules.
+@functools.cache
+def compiled(template, energy, judge=None):
+    """Return a copy of a function in which `energy` and `judge` are these modules, compiled.
 
     Parameters
     ----------
     template : function
         Of this package, not compiled.
     energy : module
-        With `cost_reduction`; with `drop` where the template asks for it.
+        With `cost_reduction`; with `drop` or `quick_reduction` where the template asks for it.
     judge : module, optional
         As `energy`; None: nothing is asked of it.
 
     Returns
     -------
-    function
-        Not compiled, with a name of its own, by which Numba's cache tells the copies apart.
+    callable
+        With a name of its own, by which Numba's cache tells the copies apart.
     """
     modules = [module.__name__.rpartition(".")[2] for module in (energy, judge) if module]
     name = "_".join([template.__name__, *modules])
-    names = {**template.__globals__, "energy": energy, "judge": judge}
-    copy = FunctionType(template.__code__, names, name)
-    copy.__qualname__ = name
-    return copy
-
-
-@functools.cache
-def _compiled(template, energy, judge=None):
-    return jit(specialised(template, energy, judge))
+    return jit(copy_of(template, name, {"energy": energy, "judge": judge}))
 
 
 @functools.cache
@@ -88,11 +85,11 @@ def _kernels(module, is_potential, most_loss):
         score = scoring.score_quickly
     return Kernels(
         energy=energy,
-        greedy=_compiled(greedy.advance, energy),
-        depth=_compiled(variable_depth.advance, energy, other),
-        anneal=_compiled(annealing.anneal, judge),
-        score=_compiled(score, energy, other),
-        losses=_compiled(annealing.find_losses, judge),
+        number=costs.number_of(energy),
+        judges=judge is energy,
+        anneal=compiled(annealing.anneal, judge),
+        score=compiled(score, energy, other),
+        losses=compiled(annealing.find_losses, judge),
         total=judge.total,
         most_loss=most_loss,
     )

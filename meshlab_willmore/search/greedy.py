@@ -39,10 +39,12 @@ from ..energy import willmore
 from ..guards import add_deviation
 from ..guards.bvh import Bvh, inactive_bvh, refit
 from ..guards.intersections import ANY_ROUND
-from ..mesh.halfedge import NONE, Mesh, flip
-from ..mesh.jit import generic, inner
+from ..mesh.halfedge import NONE, Mesh, flip, is_free
+from ..mesh.jit import inner, jit
 from ..progress import report, stage
-from . import scoring
+
+# Numba keeps no kernel on disk that hands on a function of its own module by its plain name.
+from . import greedy
 from .containers import (
     NEVER,
     Heap,
@@ -57,6 +59,7 @@ from .containers import (
     unwatch,
     update,
 )
+from .costs import find_gains
 from .rules import (
     ALLOWED,
     CONVERGED,
@@ -75,10 +78,9 @@ from .rules import (
 )
 from .stencil import visit_fans, visit_freed, visit_quad, visit_stencil
 
-# For each energy `meshlab_willmore.search.compiled` puts its own module in this place.
-energy = willmore
-# Edges that a flip scores, about.
+# Edges that a flip scores, about, and so many that are scored at a time.
 SCORES_PER_FLIP = 16
+ROOM = 64
 # The part of the time of a pass until all edges are scored, measured on scans.
 SCORING = 0.2
 
@@ -86,16 +88,22 @@ SCORING = 0.2
 class GreedyState(NamedTuple):
     """State of the search; all but the rules changes in place.
 
-    `tabu_hit` (1,) says whether a flip was refused for an edge of the tabu set.
+    `energy` is its number in `meshlab_willmore.search.costs`; `tabu_hit` (1,) says whether a flip
+    was refused for an edge of the tabu set. `edges` (s,) int32 has room for edges that are to be
+    scored, the first `waiting` (1,), and `gains` (s,) for what each gains.
     """
 
     mesh: Mesh
+    energy: int
     queue: Heap
     tabu: PairSet
     rules: Rules
     bvh: Bvh
     watch_lists: WatchLists
     tabu_hit: np.ndarray
+    edges: np.ndarray
+    gains: np.ndarray
+    waiting: np.ndarray
 
 
 @inner
@@ -107,36 +115,79 @@ def _becomes_tabu(state, h):
     return not rules.monotone or willmore.cost_reduction(state.mesh, h) <= 2.0 * rules.tie
 
 
-@generic
-def _rescore_freed(state, face, cost_reduction):
+@inner
+def _score_waiting(state):
+    """Bring the queue up to date with the edges that wait to be scored."""
+    mesh, rules, count = state.mesh, state.rules, state.waiting[0]
+    find_gains(state.energy, mesh, state.edges, count, rules.virtualpoint, state.gains)
+    for s in range(count):
+        h, gain, rank = np.int64(state.edges[s]), state.gains[s], NEVER
+        if gain > rules.tolerance and not (
+            rules.monotone and willmore.cost_reduction(mesh, h) < -rules.tie
+        ):
+            rank = np.rint(gain / rules.rank_step) if refusal(mesh, h, rules) == ALLOWED else NEVER
+        update(state.queue, h, rank)
+    state.waiting[0] = 0
+
+
+@inner
+def rescore(state, h, _):
+    """Let the edge of `h` wait to be scored; its entry in the queue is under the lower twin."""
+    t = state.mesh.twin[h]
+    if t == NONE:
+        update(state.queue, h, NEVER)
+        return False
+    low, high = min(h, t), max(h, t)
+    update(state.queue, high, NEVER)
+    if not is_free(state.mesh, low):
+        update(state.queue, low, NEVER)
+        return False
+    state.edges[state.waiting[0]] = low
+    state.waiting[0] += 1
+    if state.waiting[0] == len(state.edges):
+        _score_waiting(state)
+    return False
+
+
+@inner
+def _rescore_freed(state, face):
     """Rescore the edges that watch `face`."""
     h = np.int64(state.watch_lists.first[face])
     while h != NONE:
         unwatch(state.watch_lists, h)
-        scoring.rescore(state, h, cost_reduction)
+        rescore(state, h, None)
         h = np.int64(state.watch_lists.first[face])
 
 
-@generic
-def _flip(state, h, cost_reduction):
+@inner
+def _flip(state, h):
     """Flip `h`, bring everything up to date, and return about how many edges that has scored."""
     work = SCORES_PER_FLIP
     flip(state.mesh, h)
     add_deviation(state.mesh, h)
     if state.rules.is_wide:
-        work += visit_fans(state, h, scoring.rescore, cost_reduction)
+        work += visit_fans(state, h, greedy.rescore, None)
     elif state.rules.is_narrow and not state.rules.monotone:
-        visit_quad(state, h, scoring.rescore, cost_reduction)
+        visit_quad(state, h, greedy.rescore, None)
     else:
-        visit_stencil(state, h, scoring.rescore, cost_reduction)
-    visit_freed(state, h, scoring.rescore, cost_reduction)
+        visit_stencil(state, h, greedy.rescore, None)
+    visit_freed(state, h, greedy.rescore, None)
     if state.bvh.active:
         refit(state.mesh, state.bvh, h)
-        _rescore_freed(state, h // 3, cost_reduction)
-        _rescore_freed(state, state.mesh.twin[h] // 3, cost_reduction)
+        _rescore_freed(state, h // 3)
+        _rescore_freed(state, state.mesh.twin[h] // 3)
+    _score_waiting(state)
     return work
 
 
+@inner
+def _gain_of(state, h):
+    state.edges[0] = h
+    find_gains(state.energy, state.mesh, state.edges, 1, state.rules.virtualpoint, state.gains)
+    return state.gains[0]
+
+
+@jit
 def advance(state, progress):
     """Go on with the search for about `WORK_PER_CALL` scored edges.
 
@@ -159,7 +210,8 @@ def advance(state, progress):
         stop = min(scored + WORK_PER_CALL, len(mesh.origin))
         for h in range(scored, stop):
             if h < mesh.twin[h]:
-                update(queue, h, scoring.rank(mesh, h, rules, energy.cost_reduction))
+                rescore(state, h, None)
+        _score_waiting(state)
         return stop, flips, gain, WORKING
     work = 0
     while work < WORK_PER_CALL:
@@ -179,8 +231,8 @@ def advance(state, progress):
         if becomes_tabu:
             insert(state.tabu, mesh.origin[h], mesh.origin[mesh.twin[h]])
         flips += 1
-        gain += scoring.gain_of(energy.cost_reduction, mesh, h, rules)
-        work += _flip(state, h, energy.cost_reduction)
+        gain += _gain_of(state, h)
+        work += _flip(state, h)
     return scored, flips, gain, WORKING
 
 
@@ -211,13 +263,25 @@ def run(kernels, mesh, rules, bvh=None, settings=DEFAULTS):
     progress = Progress(0, 0, 0.0, WORKING)
     for _ in range(MOST_PASSES):
         flips, tabu_hit = progress.flips, np.zeros(1, np.bool_)
-        state = GreedyState(mesh, queue, empty_pair_set(), rules, bvh, watch_lists, tabu_hit)
+        state = GreedyState(
+            mesh,
+            kernels.number,
+            queue,
+            empty_pair_set(),
+            rules,
+            bvh,
+            watch_lists,
+            tabu_hit,
+            edges=np.empty(ROOM, np.int32),
+            gains=np.empty(ROOM),
+            waiting=np.zeros(1, np.int64),
+        )
         progress = progress._replace(scored=0, state=WORKING)
         with stage(pass_share(rules)):
             most = 0
             while progress.state == WORKING:
                 state = state._replace(tabu=reserve(state.tabu, WORK_PER_CALL // SCORES_PER_FLIP))
-                progress = Progress(*kernels.greedy(state, progress))
+                progress = Progress(*advance(state, progress))
                 left = int(queue.size[0])
                 most = max(most, left)
                 text = f"greedy, {progress.flips} flips, {left} edges left"

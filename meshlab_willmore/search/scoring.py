@@ -13,7 +13,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba.extending import overload
 
 from ..energy import willmore
 from ..energy.angles import AngleSum, radians, rough
@@ -21,63 +20,13 @@ from ..energy.wings import Wing, Wings
 from ..mesh.halfedge import NONE, Diamond, is_free
 from ..mesh.jit import at, generic, inlined, inner
 from ..mesh.points import Point
-from .containers import NEVER, update
+from .containers import NEVER
+from .costs import gain_of
 from .rounds import forbid
-from .rules import ALLOWED, refusal
 
 # What ranks the edges, and whether the Willmore energy is asked too (None: it is not):
 # `meshlab_willmore.search.compiled` puts the modules of each energy in these places.
 energy, judge = willmore, None
-
-PLACED = 3
-
-
-def gain_of(cost_reduction, mesh, h, rules):
-    """Return the cost reduction of `h`, which has a twin.
-
-    An energy that depends on where the virtual points are takes `Rules.virtualpoint` as a third
-    argument, so that it is compiled once for all places. Numba looks at the function when it
-    compiles a search, so nothing of the choice is left at run time.
-    """
-    if cost_reduction.__code__.co_argcount == PLACED:
-        return cost_reduction(mesh, h, rules.virtualpoint)
-    return cost_reduction(mesh, h)
-
-
-@overload(gain_of)
-def _compiled_gain_of(cost_reduction, mesh, h, rules):
-    if cost_reduction.dispatcher.py_func.__code__.co_argcount == PLACED:
-        return lambda cost_reduction, mesh, h, rules: cost_reduction(mesh, h, rules.virtualpoint)
-    return lambda cost_reduction, mesh, h, rules: cost_reduction(mesh, h)
-
-
-# --- one edge at a time --------------------------------------------------------------------------
-
-
-@generic
-def rank(mesh, h, rules, cost_reduction):
-    """Return the rank of `h` in the queue, or `NEVER` where it must not be flipped."""
-    if not is_free(mesh, h):
-        return NEVER
-    gain = gain_of(cost_reduction, mesh, h, rules)
-    if not gain > rules.tolerance:
-        return NEVER
-    if rules.monotone and willmore.cost_reduction(mesh, h) < -rules.tie:
-        return NEVER
-    return np.rint(gain / rules.rank_step) if refusal(mesh, h, rules) == ALLOWED else NEVER
-
-
-@generic
-def rescore(task, h, cost_reduction):
-    """Bring the queue up to date with the edge of `h`; its entry is under the lower twin."""
-    t = task.mesh.twin[h]
-    if t == NONE:
-        update(task.queue, h, NEVER)
-        return False
-    low, high = min(h, t), max(h, t)
-    update(task.queue, high, NEVER)
-    update(task.queue, low, rank(task.mesh, low, task.rules, cost_reduction))
-    return False
 
 
 @inner
@@ -100,7 +49,7 @@ def score_each(state, start, stop):
         h = state.dirty[at(place)]
         forbid(state, h)
         if is_free(mesh, h):
-            gain = gain_of(energy.cost_reduction, mesh, h, rules)
+            gain = gain_of(energy.cost_reduction, mesh, h, rules.virtualpoint)
             if gain > rules.tolerance:
                 change = willmore.cost_reduction(mesh, h) if rules.monotone else 0.0
                 _note(state, h, gain, change)

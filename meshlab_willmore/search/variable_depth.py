@@ -78,9 +78,6 @@ from .rules import (
 )
 from .snapshots import better, descend, extend, finish, snapshot_of
 
-# What ranks and what judges chains: `meshlab_willmore.search.compiled` puts the modules of each
-# energy in these places. A judge of None: the same as what ranks.
-energy, judge = willmore, None
 # What another energy must gain by a flip to cast doubt on a place.
 DOUBT = 1e-7
 # Shares of the time that is left, measured on scans: of greedy descent, of chains in regions, of
@@ -171,6 +168,7 @@ def _keep(state, length):
             _queue_edge(mesh, queue, chain.ring[place])
 
 
+@jit
 def advance(state, progress):
     """Go on with the search for about `WORK_PER_CALL` scored edges.
 
@@ -197,7 +195,7 @@ def advance(state, progress):
         if mesh.twin[h] < h:
             continue
         state.hit_cut[0] = False
-        best, more = find_chain(state, h, energy, judge)
+        best, more = find_chain(state, h)
         work += more
         if best.length == 0:
             state.blocked[h] = state.hit_cut[0]
@@ -210,12 +208,12 @@ def advance(state, progress):
     return scored, flips, gain, WORKING
 
 
-def _work_off(kernel, state, progress, halted, part=REPEATED):
+def _work_off(state, progress, halted, part=REPEATED):
     """Go on call by call until the queue is empty, the limit is reached, or all is halted."""
     progress, most = progress._replace(state=WORKING), max(int(state.queue.ends[1]), 1)
     with stage(part):
         while progress.state == WORKING and not halted:
-            progress = Progress(*kernel(state, progress))
+            progress = Progress(*advance(state, progress))
             left = int(state.queue.ends[1])
             report(1.0 - left / most, f"chains, {progress.flips} flips, {left} edges left")
     return progress
@@ -348,6 +346,8 @@ def _search(kernels, mesh, rules, bvh, limits, changed=None, halted=()):
     straight, branching = (
         ChainState(
             mesh,
+            kernels.number,
+            kernels.judges,
             queue,
             empty_chain(chain_limits, kernels.most_loss),
             made,
@@ -363,14 +363,14 @@ def _search(kernels, mesh, rules, bvh, limits, changed=None, halted=()):
     queue_marked(mesh, queue, _spread(mesh, near, hops))
     progress, part = Progress(len(mesh.origin), 0, 0.0, WORKING), FIRST
     while True:
-        progress = _work_off(kernels.depth, straight, progress, halted, part)
+        progress = _work_off(straight, progress, halted, part)
         part = REPEATED
         while progress.state == CONVERGED and made.any():
             moved |= made
             queue_marked(mesh, queue, _spread(mesh, made, hops))
             _queue_blocked(mesh, queue, straight.blocked)
             made[:] = False
-            progress = _work_off(kernels.depth, straight, progress, halted)
+            progress = _work_off(straight, progress, halted)
         # Single flips are no chains: a depth of 1 is plain descent.
         if progress.state != CONVERGED or limits.depth == 1:
             return progress
@@ -379,6 +379,6 @@ def _search(kernels, mesh, rules, bvh, limits, changed=None, halted=()):
         queue_marked(mesh, queue, moved | (reach & _doubtful_vertices(mesh, rules)))
         _queue_blocked(mesh, queue, branching.blocked)
         reach[:] = moved[:] = False
-        progress = _work_off(kernels.depth, branching, progress, halted)
+        progress = _work_off(branching, progress, halted)
         if progress.state != CONVERGED or not made.any():
             return progress

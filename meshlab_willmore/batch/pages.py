@@ -75,13 +75,13 @@ def write_page(
     settings = {
         **({} if isinstance(steps, bytes) else _steps(steps)),
         **{f"Step {one.number} returned": _listed(one.returned) for one in returned},
+        "Inputs": job.name,
         "Outputs": ", ".join(output.name for output in job.outputs) or "none",
         **{name: number for name, number in versions().items() if name != "meshlab_willmore"},
     }
+    title = ", ".join(path.name for path in job.inputs)
     try:
-        page(
-            before, after, job.page, title=job.name, settings=settings, seconds=seconds, notes=notes
-        )
+        page(before, after, job.page, title=title, settings=settings, seconds=seconds, notes=notes)
     except (MemoryError, ValueError) as error:
         note(f"{job.page} is not written: {one_line(error)}")
 

@@ -49,6 +49,7 @@ class Table(HTMLParser):
 
 @pytest.mark.parametrize("command", ["flip", "run"])
 def test_page_of_one_mesh(cube, command):
+    cube = Path(cube).absolute()
     words = ["flip", cube, "out.ply", "--energy", "willmore"]
     if command == "run":
         words = ["run", script_file(TAUBIN, FLIP), "-i", cube, "-o", "out.ply"]
@@ -56,6 +57,7 @@ def test_page_of_one_mesh(cube, command):
     assert (result.exit_code, result.stderr) == (0, "")
     text = Path("page.html").read_text(encoding="utf-8")
     assert "<h1>cube.ply</h1>" in text
+    assert f"<dd>{cube}</dd>" in text
     assert "out.ply" in text
     assert ("energy = &#x27;willmore&#x27;" in text) == (command == "flip")
     assert "flips = " in text

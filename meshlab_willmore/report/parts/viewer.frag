@@ -79,7 +79,7 @@ void main() {
     if (smoothed.z < 0.0) smoothed = -smoothed;
     vec3 mirrored = reflect(vec3(0.0, 0.0, -1.0), smoothed);
     // Not from the middle, where faces that look up or down would be on an edge of a stripe.
-    float stripe = 0.8 + 12.0 * atan(mirrored.x, 1.0 + mirrored.z);
+    float stripe = 0.8 + 8.0 * atan(mirrored.x, 1.0 + mirrored.z);
     float wave = sin(stripe);
     float width = max(fwidth(stripe), 1e-4);
     float dark = smoothstep(-width, width, wave);

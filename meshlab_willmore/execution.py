@@ -19,7 +19,7 @@ from .progress import report, stage
 from .results import PassResult
 from .search import annealing, greedy, multistart, parallel_greedy, variable_depth
 from .search.compiled import KERNELS, PLACED_KERNELS
-from .search.rules import CONVERGED, ChainLimits, Rules, Schedule, Settings
+from .search.rules import CONVERGED, ChainLimits, Rules, Schedule, Settings, rest_of
 from .search.snapshots import assign, copy_of
 
 _log = logging.getLogger(__name__)
@@ -125,7 +125,7 @@ def run_all(plan, mesh, exponent, left):
                     done.append(_run(one, unlocked, exponent, left))
             else:
                 done.append(PassResult(one.energy, one.search, 0, 0.0, True))
-        left -= done[-1].flips
+        left = rest_of(left, done[-1].flips)
         _log.info(
             "%s, %s by %s: %d flips, gain %g, %.3f s",
             name,

@@ -12,7 +12,9 @@ from meshlab_willmore.energy.wings import View, Views, side_angles, wings_of
 from meshlab_willmore.mesh.halfedge import diamond
 from meshlab_willmore.mesh.jit import generic, jit
 from meshlab_willmore.mesh.points import Point, subtract
-from meshlab_willmore.search import compiled, greedy
+from meshlab_willmore.search import scoring
+from meshlab_willmore.search.compiled import KERNELS
+from meshlab_willmore.search.copies import copy_of
 
 
 @jit
@@ -48,7 +50,7 @@ def cost_reduction(mesh, h, t):
     return gain if math.isfinite(gain) else -math.inf
 
 
-# The greedy search on it.
-BOTH = compiled.KERNELS["virtual willmore"]._replace(
-    greedy=generic(compiled.specialised(greedy.advance, sys.modules[__name__]))
-)
+# The greedy search in rounds on it. Without a cache on disk, which would not notice an edit here.
+_NAMES = {"energy": sys.modules[__name__]}
+_SCORE = generic(copy_of(scoring.score_each, "score_both_points", _NAMES))
+BOTH = KERNELS["virtual willmore"]._replace(score=_SCORE)

@@ -46,6 +46,7 @@ from .rules import (
     Rules,
     refusal,
     refusal_by_all,
+    rest_of,
 )
 from .snapshots import Snapshot, assign, better, copy_of, descend, finish, snapshot_of
 
@@ -210,7 +211,7 @@ def _anneal(kernels, begin, rules, schedule, loss):
     mesh, best = copy_of(begin.mesh), copy_of(begin.mesh)
     bvh = refitted(begin.bvh, mesh)
     journal, before = np.empty(WORK_PER_CALL, np.int32), np.empty((WORK_PER_CALL, 2))
-    left = rules._replace(maxflips=rules.maxflips - begin.flips)
+    left = rules._replace(maxflips=rest_of(rules.maxflips, begin.flips))
     state = AnnealingState(mesh, best, journal, before, left, bvh)
     progress = _sweep(kernels, state, schedule, loss)
     at_best = refitted(bvh, best)

@@ -131,6 +131,11 @@ class Progress(NamedTuple):
     state: int
 
 
+def rest_of(maxflips, flips):
+    """Return how many flips of a limit are left after some; without a limit, `NO_LIMIT`."""
+    return maxflips if maxflips == NO_LIMIT else maxflips - flips
+
+
 def is_finished(rules, progress, flips, tabu_hit):
     """Whether a greedy search is through; else it goes on with an empty tabu set.
 

@@ -7,7 +7,7 @@ from ..guards.bvh import Bvh, inactive_bvh, refitted
 from ..mesh.halfedge import Mesh
 from ..mesh.jit import jit
 from . import greedy
-from .rules import WORKING, Progress
+from .rules import WORKING, Progress, rest_of
 
 # The part of an energy below which a difference may be rounding.
 ROUNDING = 1e-12
@@ -61,7 +61,7 @@ def extend(snapshot, search, rules):
     """
     mesh = copy_of(snapshot.mesh)
     bvh = refitted(snapshot.bvh, mesh)
-    left = rules._replace(maxflips=rules.maxflips - snapshot.flips)
+    left = rules._replace(maxflips=rest_of(rules.maxflips, snapshot.flips))
     progress = search(mesh, left, bvh)
     return Snapshot(mesh, bvh, snapshot.flips + progress.flips, progress.state)
 

@@ -75,6 +75,7 @@ from .rules import (
     WORKING,
     Progress,
     refusal,
+    rest_of,
 )
 from .snapshots import better, descend, extend, finish, snapshot_of
 
@@ -297,7 +298,7 @@ def _make_chains(kernels, mesh, rules, bvh, settings, changed):
     # For a potential, a flip that is left would have been a chain.
     while progress.state == CONVERGED and rules.monotone:
         before, flips = mesh.origin.copy(), progress.flips
-        left = rules._replace(maxflips=rules.maxflips - flips)
+        left = rules._replace(maxflips=rest_of(rules.maxflips, flips))
         with stage(REPEATED):
             progress = _sum(progress, greedy.run(kernels, mesh, left, bvh))
         if progress.state == STOPPED or progress.flips == flips:
@@ -305,7 +306,7 @@ def _make_chains(kernels, mesh, rules, bvh, settings, changed):
         flips = progress.flips
         # With the guard, what these flips have freed may be anywhere.
         changed = None if bvh.active else _moved_vertices(before, mesh)
-        left = rules._replace(maxflips=rules.maxflips - flips)
+        left = rules._replace(maxflips=rest_of(rules.maxflips, flips))
         with stage(REPEATED):
             progress = _sum(progress, _search(kernels, mesh, left, bvh, limits, changed))
         if progress.flips == flips:

@@ -106,9 +106,10 @@ def test_maxflips_counts_the_flips_on_the_way(limit):
     assert everything.flips > 20
 
 
-def test_an_interrupt_leaves_the_mesh_as_it_was():
-    depth, _ = interrupted(KERNELS["willmore"].depth, 3)
-    kernels, rules = KERNELS["willmore"]._replace(depth=depth), rules_for("willmore")
+def test_an_interrupt_leaves_the_mesh_as_it_was(monkeypatch):
+    advance, _ = interrupted(variable_depth.advance, 3)
+    monkeypatch.setattr(variable_depth, "advance", advance)
+    kernels, rules = KERNELS["willmore"], rules_for("willmore")
     mesh, settings = MESHES["closed"](), with_starts(Settings(ChainLimits(3, 2)))
     with pytest.raises(KeyboardInterrupt):
         multistart.run(kernels, mesh, rules, None, settings)

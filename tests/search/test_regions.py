@@ -10,13 +10,13 @@ from meshlab_willmore.guards.bvh import build_bvh
 from meshlab_willmore.measure import willmore_energy_of
 from meshlab_willmore.mesh.build import build, faces_of
 from meshlab_willmore.mesh.halfedge import NONE, flip, is_free
-from meshlab_willmore.search import regions, variable_depth
+from meshlab_willmore.search import greedy, regions, variable_depth
 from meshlab_willmore.search.compiled import KERNELS
 from meshlab_willmore.search.rules import CONVERGED, ChainLimits, Progress, Settings
 from meshlab_willmore.search.snapshots import copy_of
 from tests import meshes
 from tests.connectivity import can_flip, validate_connectivity
-from tests.search.ways import locked_edges, rules_for
+from tests.search.ways import locked_edges, rules_for, scramble
 
 MESHES = {
     "closed": lambda: meshes.bumpy_sphere(150, bump=0.7),
@@ -183,3 +183,23 @@ def test_with_the_guard_or_a_limit_the_mesh_is_searched_as_a_whole(monkeypatch):
     variable_depth.run(KERNELS["willmore"], mesh, limited, None, Settings(LIMITS))
     with pytest.raises(AssertionError):
         searched(mesh, "willmore")
+
+
+@pytest.mark.heavy
+def test_flips_before_the_chains_are_no_limit(monkeypatch):
+    monkeypatch.setattr(regions, "LEAST_FACES", 20)
+    parts = []
+    monkeypatch.setattr(regions, "run", recording(regions.run, parts))
+    scrambled = build(*meshes.bumpy_sphere(60))
+    scramble(scrambled, 1)
+    assert greedy.run(KERNELS["willmore"], copy_of(scrambled), rules_for("willmore")).flips
+    searched(scrambled, "willmore")
+    assert parts
+
+
+def recording(function, calls):
+    def recorded(*given):
+        calls.append(given)
+        return function(*given)
+
+    return recorded

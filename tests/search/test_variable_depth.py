@@ -44,14 +44,9 @@ def search(energy, mesh, rules, limits):
 
 
 @jit
-def find_willmore(state, h):
-    """Call `chains.find_chain`, which takes modules and so has no cache, for one energy."""
-    return chains.find_chain(state, h, willmore, None)
-
-
-@jit
-def find_virtual(state, h):
-    return chains.find_chain(state, h, virtual, willmore)
+def find_chain(state, h):
+    """Call `chains.find_chain`, which is for kernels."""
+    return chains.find_chain(state, h)
 
 
 @pytest.mark.heavy
@@ -113,13 +108,15 @@ def test_chains_blocked_by_cuts_are_tried_again_once_a_scan_would(limits, name):
     np.testing.assert_array_equal(bvh.box, refitted(bvh, searched).box)
 
 
-def new_state(mesh, rules, limits):
+def new_state(mesh, rules, limits, energy="willmore"):
     """A state with every edge in the queue."""
     queue = containers.empty_fifo(len(mesh.origin))
     changed = np.zeros(len(mesh.vertices), bool)
     variable_depth.queue_marked(mesh, queue, ~changed)
     return chains.ChainState(
         mesh,
+        KERNELS[energy].number,
+        KERNELS[energy].judges,
         queue,
         chains.empty_chain(limits),
         changed,
@@ -141,7 +138,7 @@ def test_what_a_chain_tries_leaves_no_trace(limits, name):
     state = new_state(mesh, Rules(FREE), limits)
     worked = 0
     for h in np.flatnonzero(mesh.twin != NONE):
-        best, work = find_willmore(state, h)
+        best, work = find_chain(state, h)
         worked += work
         for changed, kept in zip(mesh, before, strict=True):
             np.testing.assert_array_equal(changed, kept)
@@ -164,7 +161,7 @@ def test_the_chains_from_one_edge_are_bounded():
     mesh = build(*meshes.bumpy_sphere(20, seed=2))
     before = snapshots.copy_of(mesh)
     state = new_state(mesh, Rules(FREE), ChainLimits(30, 12))
-    best, work = find_willmore(state, 0)
+    best, work = find_chain(state, 0)
     assert best[0] == 0
     # The last step that was begun is scored as a whole.
     assert chains.MOST_WORK <= work < chains.MOST_WORK + chains.RING
@@ -231,15 +228,14 @@ def test_deeper_is_never_worse_than_greedy_and_a_minimum(energy, name):
     rules, limits = Rules(GUARDED), ChainLimits(4, 3)
     greedily, mesh = MESHES[name](), MESHES[name]()
     greedy.run(KERNELS[energy], greedily, rules)
-    find_chain = find_virtual if energy == "virtual willmore" else find_willmore
     assert search(energy, mesh, rules, limits).state == CONVERGED
     assert willmore.total(mesh) <= willmore.total(greedily) + 1e-12
-    state = new_state(mesh, rules, limits)
+    state = new_state(mesh, rules, limits, energy)
     for h in np.flatnonzero(mesh.twin != NONE):
         if h < mesh.twin[h]:
             assert find_chain(state, h)[0][0] == 0
     again = snapshots.copy_of(mesh)
-    progress = KERNELS[energy].depth(state, Progress(0, 0, 0.0, WORKING))
+    progress = variable_depth.advance(state, Progress(0, 0, 0.0, WORKING))
     assert progress == (0, 0, 0.0, CONVERGED)
     np.testing.assert_array_equal(mesh.origin, again.origin)
 
@@ -302,7 +298,7 @@ def test_every_flip_of_a_chain_passes_the_fold_guard():
     state = new_state(mesh, rules, limits)
     flips = 0
     for h in np.flatnonzero(mesh.twin > np.arange(len(mesh.twin))):
-        best, _ = find_willmore(state, h)
+        best, _ = find_chain(state, h)
         for s in range(best[0]):
             assert can_flip(mesh, state.chain.best[s])
             assert not guards.folds(mesh, state.chain.best[s], GUARDED)
@@ -343,17 +339,18 @@ def _scramble(mesh, count, rng):
 
 @pytest.mark.heavy
 @pytest.mark.slow
-def test_the_kernel_comes_back_often_and_two_runs_are_equal():
+def test_the_kernel_comes_back_often_and_two_runs_are_equal(monkeypatch):
     def counting(state, progress):
         calls.append(progress)
-        return KERNELS["willmore"].depth(state, progress)
+        return advance(state, progress)
 
-    results = []
+    advance, results = variable_depth.advance, []
+    monkeypatch.setattr(variable_depth, "advance", counting)
     for _ in range(2):
         calls = []
         mesh = build(*meshes.torus(800, None, 4))
         greedy_rules = Rules(GUARDED)
-        variable_depth.run(KERNELS["willmore"]._replace(depth=counting), mesh, greedy_rules)
+        variable_depth.run(KERNELS["willmore"], mesh, greedy_rules)
         results.append(mesh)
         assert len(calls) > 5
         assert [p.flips for p in calls] == sorted(p.flips for p in calls)

@@ -8,7 +8,7 @@ import pytest
 
 from meshlab_willmore.energy import virtual, virtual_at, virtual_closest, willmore
 from meshlab_willmore.mesh.build import build, faces_of
-from meshlab_willmore.search import greedy, scoring, variable_depth
+from meshlab_willmore.search import costs, greedy, variable_depth
 from meshlab_willmore.search.compiled import AT, PLACED_KERNELS
 from meshlab_willmore.search.rules import CONVERGED, ChainLimits, Rules, Settings
 from tests import meshes
@@ -82,25 +82,25 @@ def test_the_search_ends(place, monotone):
 
 
 def test_an_energy_is_asked_with_the_numbers_it_takes():
-    mesh, options = build(*meshes.bumpy_sphere(24)), rules()
+    mesh = build(*meshes.bumpy_sphere(24))
     cost_reductions = {
         virtual.cost_reduction: virtual.cost_reduction(mesh, 0),
         virtual_at.cost_reduction: virtual_at.cost_reduction(mesh, 0, T),
     }
     assert len(set(cost_reductions.values())) == 2
     for energy, wanted in cost_reductions.items():
-        assert scoring.gain_of(energy, mesh, 0, options) == wanted
+        assert costs.gain_of(energy, mesh, 0, T) == wanted
 
 
 SCRIPT = """
 from meshlab_willmore.optimize import optimize_flips
 from meshlab_willmore.search.compiled import AT, PLACED_KERNELS
-greedy_virtual_at = PLACED_KERNELS[AT].greedy
+score = PLACED_KERNELS[AT].score
 from tests import meshes
 for t in (0.1, 0.2):
-    optimize_flips(*meshes.cube(), virtualpoint=t, search="greedy")
-hits, misses = greedy_virtual_at.stats.cache_hits, greedy_virtual_at.stats.cache_misses
-print(len(greedy_virtual_at.signatures), sum(hits.values()), sum(misses.values()))
+    optimize_flips(*meshes.cube(), virtualpoint=t)
+hits, misses = score.stats.cache_hits, score.stats.cache_misses
+print(len(score.signatures), sum(hits.values()), sum(misses.values()))
 """
 
 

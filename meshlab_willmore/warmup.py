@@ -18,14 +18,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import measure
+from .guards import fold_limits
+from .guards.bvh import inactive_bvh
 from .mesh import compiling
+from .mesh.build import build
 from .mesh.jit import cache_folder, is_off
 from .mesh.kernel_cache import write_errors
 from .mesh.normals import vertex_normals
 from .optimize import optimize_flips
-from .options import ENERGY, SEARCH, VIRTUALPOINT
+from .options import ENERGY, FOLDANGLE, SEARCH, VIRTUALPOINT
+from .search.compiled import KERNELS
+from .search.rules import ChainLimits, Rules
+from .search.variable_depth import search_by_chains
 
 VIRTUAL = "virtual willmore"
+_CHAINS = "chains of flips"
+_WITH_CHAINS = ("variable depth", "thorough")
 _GUARDED = ", self-intersections"
 _PLACE = 0.3
 _ROWS, _SLOPE_ROWS = 7, 30
@@ -88,6 +96,7 @@ def steps() -> list[WarmupStep]:
                 measure.self_intersections,
             )
         },
+        _CHAINS: partial(_make_chains, *patch),
         "normals": partial(vertex_normals, *patch, np.zeros((_ROWS**2, 3))),
     }
     return [WarmupStep(name, run) for name, run in (chosen | guarded | others).items()]
@@ -116,6 +125,12 @@ def _patch() -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     x, y, faces = _grid(_ROWS)
     height = np.random.default_rng(0).uniform(0.0, _HEIGHT, x.size)
     return np.stack([x, y, height], 1), faces
+
+
+def _make_chains(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> None:
+    """Make chains of flips, without what `optimize_flips` does before and after."""
+    mesh, rules = build(vertices, faces), Rules(fold_limits(FOLDANGLE.default))
+    search_by_chains(KERNELS[ENERGY.default], mesh, rules, inactive_bvh(), ChainLimits())
 
 
 def warm_up(
@@ -197,18 +212,15 @@ def _in_processes(pool: ProcessPoolExecutor) -> Iterator[_Outcome]:
 def _jobs() -> list[list[WarmupStep]]:
     """The steps, those together that compile the same kernels.
 
-    Next to each other are jobs of other searches and other energies: processes that run them at the
-    same time compile little that is the same.
+    The first one compiles chains of flips, which takes as long as half of the others. So the steps
+    that need chains come last.
     """
     jobs: dict[str, list[WarmupStep]] = {}
     for step in steps():
         jobs.setdefault(step.name.removesuffix(_GUARDED), []).append(step)
-    found = list(jobs.values())
-    energies = len(ENERGY.choices)
-    of_searches = energies * len(SEARCH.choices)
-    # Diagonals of the table of searches and energies.
-    order = sorted(range(of_searches), key=lambda i: ((i % energies - i // energies) % energies, i))
-    return [found[i] for i in (*order, *range(of_searches, len(found)))]
+    with_chains = [name for name in jobs if name.startswith(_WITH_CHAINS)]
+    others = [name for name in jobs if name not in with_chains and name != _CHAINS]
+    return [jobs[name] for name in (_CHAINS, *others, *with_chains)]
 
 
 def missing() -> list[str]:

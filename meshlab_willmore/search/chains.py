@@ -12,13 +12,11 @@ from ..guards import add_deviation
 from ..guards.bvh import Bvh, refit
 from ..mesh.halfedge import NONE, Mesh, apex, flip, following, is_free
 from ..mesh.jit import inlined, inner
-
-# Numba keeps no kernel on disk that hands on a function of its own module by its plain name.
-from . import chains, stencil
+from . import stencil
 from .containers import Fifo
 from .costs import find_gains
 from .rules import ALLOWED, INTERSECTS, Rules, refusal_by_all
-from .stencil import RING
+from .stencil import RING, EdgeList
 
 # The part of the largest of several numbers that the rounding of their sum stays below.
 ROUNDING = 1e-13
@@ -168,20 +166,11 @@ def empty_chain(limits, most_loss=np.inf):
 
 
 @inner
-def append_to_ring(state, h, _):
-    """Add `h` to the ring of the chain."""
-    chain = state.chain
-    chain.ring[chain.ring_size[0]] = h
-    chain.ring_size[0] += 1
-    return False
-
-
-@inner
-def find_ring(state, h):
-    """Write the edges around that of `h` into the ring of the chain; return their number."""
-    state.chain.ring_size[0] = 0
-    stencil.visit_ring(state, h, chains.append_to_ring, None)
-    return state.chain.ring_size[0]
+def find_ring(mesh, h, ring, ring_size):
+    """Write the edges around that of `h` into the ring of a chain; return their number."""
+    ring_size[0] = 0
+    stencil.visit_ring(EdgeList(mesh, ring, ring_size), h, stencil.append, None)
+    return ring_size[0]
 
 
 @inner
@@ -194,14 +183,14 @@ def _may_flip(state, h):
 
 
 @inner
-def _is_joined(state, h, length):
-    """Whether the chain has made the edge of `h` itself."""
-    a, b = state.mesh.origin[h], state.mesh.origin[following(h)]
+def _is_joined(origin, h, joined, length):
+    """Whether one of the first `length` flips of a chain has made the edge of `h`."""
+    a, b = origin[h], origin[following(h)]
     low, high = min(a, b), max(a, b)
+    found = False
     for s in range(length):
-        if state.chain.joined[s, 0] == low and state.chain.joined[s, 1] == high:
-            return True
-    return False
+        found |= joined[s, 0] == low and joined[s, 1] == high
+    return found
 
 
 @inlined
@@ -285,7 +274,7 @@ def _next_candidate(state, s):
             drop = willmore.cost_reduction(state.mesh, h)
         if not (np.isfinite(drop) and chain.drop[s] + drop >= chain.floor[0]):
             continue
-        if not _is_joined(state, h, s) and _may_flip(state, h):
+        if not _is_joined(state.mesh.origin, h, chain.joined, s) and _may_flip(state, h):
             chain.tried[s] += 1
             return place, drop
     return NONE, 0.0
@@ -369,7 +358,7 @@ def _finish(state, count, s, best):
         drop = score if state.judges else willmore.cost_reduction(mesh, h)
         if not chain.drop[s] + drop > best.drop + rules.tolerance:
             continue
-        if not _is_joined(state, h, s) and _may_flip(state, h):
+        if not _is_joined(state.mesh.origin, h, chain.joined, s) and _may_flip(state, h):
             _add(state, h, s, score, drop)
             best = _better(state, s + 1, best)
     return best
@@ -413,7 +402,7 @@ def find_chain(state, start):
             if s + 1 == depth:
                 continue
             _do(state, s)
-            count = find_ring(state, h)
+            count = find_ring(state.mesh, h, chain.ring, chain.ring_size)
             s += 1
             if s + 1 < depth:
                 is_new = True

@@ -42,9 +42,7 @@ from ..guards.intersections import ANY_ROUND
 from ..mesh.halfedge import NONE, Mesh, flip, is_free
 from ..mesh.jit import inner, jit
 from ..progress import report, stage
-
-# Numba keeps no kernel on disk that hands on a function of its own module by its plain name.
-from . import greedy
+from . import stencil
 from .containers import (
     NEVER,
     Heap,
@@ -76,7 +74,7 @@ from .rules import (
     pass_share,
     refusal,
 )
-from .stencil import visit_fans, visit_freed, visit_quad, visit_stencil
+from .stencil import EdgeList, visit_fans, visit_freed, visit_quad, visit_stencil
 
 # Edges that a flip scores, about, and so many that are scored at a time.
 SCORES_PER_FLIP = 16
@@ -89,8 +87,8 @@ class GreedyState(NamedTuple):
     """State of the search; all but the rules changes in place.
 
     `energy` is its number in `meshlab_willmore.search.costs`; `tabu_hit` (1,) says whether a flip
-    was refused for an edge of the tabu set. `edges` (s,) int32 has room for edges that are to be
-    scored, the first `waiting` (1,), and `gains` (s,) for what each gains.
+    was refused for an edge of the tabu set. `edges` (s,) int32, `size` (1,) and `gains` (s,) are
+    room for edges that are to be scored, their number, and what each gains.
     """
 
     mesh: Mesh
@@ -103,7 +101,7 @@ class GreedyState(NamedTuple):
     tabu_hit: np.ndarray
     edges: np.ndarray
     gains: np.ndarray
-    waiting: np.ndarray
+    size: np.ndarray
 
 
 @inner
@@ -115,68 +113,93 @@ def _becomes_tabu(state, h):
     return not rules.monotone or willmore.cost_reduction(state.mesh, h) <= 2.0 * rules.tie
 
 
+class _Scorer(NamedTuple):
+    """Of the state what edges are scored with."""
+
+    mesh: Mesh
+    energy: int
+    rules: Rules
+    queue: Heap
+
+
 @inner
-def _score_waiting(state):
-    """Bring the queue up to date with the edges that wait to be scored."""
-    mesh, rules, count = state.mesh, state.rules, state.waiting[0]
-    find_gains(state.energy, mesh, state.edges, count, rules.virtualpoint, state.gains)
+def _score(scorer, edges, count, gains):
+    """Bring the queue up to date with the first `count` edges, in place.
+
+    The entry of an edge is under the lower one of its half-edges. `edges` is used for those that
+    may be flipped, and `gains` for what these gain.
+    """
+    mesh, energy, rules, queue = scorer
+    free = 0
     for s in range(count):
-        h, gain, rank = np.int64(state.edges[s]), state.gains[s], NEVER
-        if gain > rules.tolerance and not (
-            rules.monotone and willmore.cost_reduction(mesh, h) < -rules.tie
-        ):
-            rank = np.rint(gain / rules.rank_step) if refusal(mesh, h, rules) == ALLOWED else NEVER
-        update(state.queue, h, rank)
-    state.waiting[0] = 0
+        h = np.int64(edges[s])
+        t = np.int64(mesh.twin[h])
+        if t == NONE:
+            update(queue, h, NEVER)
+            continue
+        low, high = min(h, t), max(h, t)
+        update(queue, high, NEVER)
+        if is_free(mesh, low):
+            edges[free] = low
+            free += 1
+        else:
+            update(queue, low, NEVER)
+    find_gains(energy, mesh, edges, free, rules.virtualpoint, gains)
+    for s in range(free):
+        h, gain, rank = np.int64(edges[s]), gains[s], NEVER
+        rises = gain > rules.tolerance and rules.monotone
+        rises = rises and willmore.cost_reduction(mesh, h) < -rules.tie
+        if gain > rules.tolerance and not rises and refusal(mesh, h, rules) == ALLOWED:
+            rank = np.rint(gain / rules.rank_step)
+        update(queue, h, rank)
 
 
 @inner
-def rescore(state, h, _):
-    """Let the edge of `h` wait to be scored; its entry in the queue is under the lower twin."""
-    t = state.mesh.twin[h]
-    if t == NONE:
-        update(state.queue, h, NEVER)
-        return False
-    low, high = min(h, t), max(h, t)
-    update(state.queue, high, NEVER)
-    if not is_free(state.mesh, low):
-        update(state.queue, low, NEVER)
-        return False
-    state.edges[state.waiting[0]] = low
-    state.waiting[0] += 1
-    if state.waiting[0] == len(state.edges):
-        _score_waiting(state)
-    return False
-
-
-@inner
-def _rescore_freed(state, face):
+def _rescore_freed(state, scorer, face):
     """Rescore the edges that watch `face`."""
-    h = np.int64(state.watch_lists.first[face])
-    while h != NONE:
+    first, count = state.watch_lists.first, 0
+    while first[face] != NONE:
+        h = np.int64(first[face])
         unwatch(state.watch_lists, h)
-        rescore(state, h, None)
-        h = np.int64(state.watch_lists.first[face])
+        state.edges[count] = h
+        count += 1
+        if count == len(state.edges):
+            _score(scorer, state.edges, count, state.gains)
+            count = 0
+    _score(scorer, state.edges, count, state.gains)
+
+
+@inner
+def _find_changed(found, rules, h):
+    """List the edges that the flip which made `h` changes; return about how many, but by fans."""
+    work = SCORES_PER_FLIP
+    found.size[0] = 0
+    if rules.is_wide:
+        work += visit_fans(found, h, stencil.append, None)
+    elif rules.is_narrow and not rules.monotone:
+        visit_quad(found, h, stencil.append, None)
+    else:
+        visit_stencil(found, h, stencil.append, None)
+    visit_freed(found, h, stencil.append, None)
+    return work
 
 
 @inner
 def _flip(state, h):
     """Flip `h`, bring everything up to date, and return about how many edges that has scored."""
-    work = SCORES_PER_FLIP
-    flip(state.mesh, h)
-    add_deviation(state.mesh, h)
-    if state.rules.is_wide:
-        work += visit_fans(state, h, greedy.rescore, None)
-    elif state.rules.is_narrow and not state.rules.monotone:
-        visit_quad(state, h, greedy.rescore, None)
-    else:
-        visit_stencil(state, h, greedy.rescore, None)
-    visit_freed(state, h, greedy.rescore, None)
+    mesh, rules = state.mesh, state.rules
+    flip(mesh, h)
+    add_deviation(mesh, h)
+    scorer, edges, gains = _Scorer(mesh, state.energy, rules, state.queue), state.edges, state.gains
+    work = _find_changed(EdgeList(mesh, edges, state.size), rules, h)
+    if state.size[0] > len(edges):
+        edges, gains = np.empty(state.size[0], np.int32), np.empty(state.size[0])
+        work = _find_changed(EdgeList(mesh, edges, state.size), rules, h)
+    _score(scorer, edges, state.size[0], gains)
     if state.bvh.active:
-        refit(state.mesh, state.bvh, h)
-        _rescore_freed(state, h // 3)
-        _rescore_freed(state, state.mesh.twin[h] // 3)
-    _score_waiting(state)
+        refit(mesh, state.bvh, h)
+        _rescore_freed(state, scorer, h // 3)
+        _rescore_freed(state, scorer, mesh.twin[h] // 3)
     return work
 
 
@@ -208,10 +231,14 @@ def advance(state, progress):
     scored, flips, gain, _ = progress
     if scored < len(mesh.origin):
         stop = min(scored + WORK_PER_CALL, len(mesh.origin))
+        scorer, count = _Scorer(mesh, state.energy, rules, queue), 0
         for h in range(scored, stop):
             if h < mesh.twin[h]:
-                rescore(state, h, None)
-        _score_waiting(state)
+                state.edges[count] = h
+                count += 1
+            if count == len(state.edges) or h == stop - 1:
+                _score(scorer, state.edges, count, state.gains)
+                count = 0
         return stop, flips, gain, WORKING
     work = 0
     while work < WORK_PER_CALL:
@@ -274,7 +301,7 @@ def run(kernels, mesh, rules, bvh=None, settings=DEFAULTS):
             tabu_hit,
             edges=np.empty(ROOM, np.int32),
             gains=np.empty(ROOM),
-            waiting=np.zeros(1, np.int64),
+            size=np.zeros(1, np.int64),
         )
         progress = progress._replace(scored=0, state=WORKING)
         with stage(pass_share(rules)):

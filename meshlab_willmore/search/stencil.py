@@ -5,15 +5,34 @@ mesh is used here), one of the edge's half-edges, and an argument that is handed
 whether to stop there, which only `visit_ring` and `visit_stencil` do.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
-from ..mesh.halfedge import NONE, apex, following, next_in_fan, previous
-from ..mesh.jit import at, generic, inlined
+from ..mesh.halfedge import NONE, Mesh, apex, following, next_in_fan, previous
+from ..mesh.jit import at, generic, inlined, inner
 
 # Most edges of a ring.
 RING = 12
 # Edges at and opposite to the corners of a diamond where all is regular.
 FAN_EDGES = 72
+
+
+class EdgeList(NamedTuple):
+    """A task for `append`: room for edges, (s,) int32, and in `size` (1,) how many there are."""
+
+    mesh: Mesh
+    edges: np.ndarray
+    size: np.ndarray
+
+
+@inner
+def append(found, h, _):
+    """Write `h` into the list, if there is room, and count it."""
+    if found.size[0] < len(found.edges):
+        found.edges[found.size[0]] = h
+    found.size[0] += 1
+    return False
 
 
 @inlined

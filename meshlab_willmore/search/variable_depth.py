@@ -165,7 +165,7 @@ def _keep(state, length):
         refit(mesh, state.bvh, h)
         # A later flip of the chain moves edges to other half-edges, but queues all these as well.
         _queue_edge(mesh, queue, h)
-        for place in range(find_ring(state, h)):
+        for place in range(find_ring(mesh, h, chain.ring, chain.ring_size)):
             _queue_edge(mesh, queue, chain.ring[place])
 
 
@@ -268,7 +268,7 @@ def _best_descent(kernels, begin, found, rules, settings):
         if found.state == other.state == CONVERGED:
             near = _where_they_differ(found.mesh, other.mesh)
             limits = settings.limits._replace(breadth=1)
-            search = functools.partial(_search, kernels, limits=limits, changed=near)
+            search = functools.partial(search_by_chains, kernels, limits=limits, changed=near)
             reach = min(1.0, REACH * near.mean())
             for place in range(len(ends)):
                 work = reach * sum(ENDS[place:])
@@ -289,12 +289,12 @@ def _make_chains(kernels, mesh, rules, bvh, settings, changed):
     if changed is None and regions.is_large(mesh) and not bvh.active and rules.maxflips == NO_LIMIT:
 
         def search(part, halted):
-            return _search(kernels, part, rules, bvh, limits, halted=halted)
+            return search_by_chains(kernels, part, rules, bvh, limits, halted=halted)
 
         with stage(IN_REGIONS):
             progress, changed = regions.run(search, mesh, settings.threads)
     with stage(IN_REGIONS):
-        progress = _sum(progress, _search(kernels, mesh, rules, bvh, limits, changed))
+        progress = _sum(progress, search_by_chains(kernels, mesh, rules, bvh, limits, changed))
     # For a potential, a flip that is left would have been a chain.
     while progress.state == CONVERGED and rules.monotone:
         before, flips = mesh.origin.copy(), progress.flips
@@ -308,7 +308,7 @@ def _make_chains(kernels, mesh, rules, bvh, settings, changed):
         changed = None if bvh.active else _moved_vertices(before, mesh)
         left = rules._replace(maxflips=rest_of(rules.maxflips, flips))
         with stage(REPEATED):
-            progress = _sum(progress, _search(kernels, mesh, left, bvh, limits, changed))
+            progress = _sum(progress, search_by_chains(kernels, mesh, left, bvh, limits, changed))
         if progress.flips == flips:
             break
     return progress
@@ -336,7 +336,7 @@ def _where_they_differ(one, other):
     return marked
 
 
-def _search(kernels, mesh, rules, bvh, limits, changed=None, halted=()):
+def search_by_chains(kernels, mesh, rules, bvh, limits, changed=None, halted=()):
     """Make chains until none helps, at first from all edges, or from those near changed vertices.
 
     Chains that do not branch come first: they are cheap, and do most of the work. Then chains that

@@ -200,7 +200,7 @@ SEARCHES = [
     Fault(
         "edges that wait for an edge to go are forgotten",
         "search/greedy.py",
-        "    visit_freed(state, h, greedy.rescore, None)\n",
+        "    visit_freed(found, h, stencil.append, None)\n",
         "",
         "tests/search/test_greedy.py::test_an_edge_freed_by_a_flip_elsewhere_is_flipped_too",
     ),

@@ -108,6 +108,10 @@ def test_chains_blocked_by_cuts_are_tried_again_once_a_scan_would(limits, name):
     np.testing.assert_array_equal(bvh.box, refitted(bvh, searched).box)
 
 
+def find_ring(state, h):
+    return chains.find_ring(state.mesh, h, state.chain.ring, state.chain.ring_size)
+
+
 def new_state(mesh, rules, limits, energy="willmore"):
     """A state with every edge in the queue."""
     queue = containers.empty_fifo(len(mesh.origin))
@@ -179,7 +183,7 @@ def test_the_ring_is_where_cost_reductions_change(name):
         flipped = snapshots.copy_of(mesh)
         flip(flipped, h)
         state = new_state(flipped, Rules(FREE), ChainLimits(1, 1))
-        there = {ends(flipped, x) for x in state.chain.ring[: chains.find_ring(state, h)]}
+        there = {ends(flipped, x) for x in state.chain.ring[: find_ring(state, h)]}
         gains = [
             {ends(m, x): virtual.cost_reduction(m, x) for x in np.flatnonzero(m.twin != NONE)}
             for m in (mesh, flipped)

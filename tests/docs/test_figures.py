@@ -13,7 +13,7 @@ from meshlab_willmore.demo.experiments import run_demo
 from meshlab_willmore.report.stages import significant
 
 from .pages import DOCS, blocks
-from .tables import table_with
+from .tables import table_with, tables
 
 studies = pytest.importorskip("studies")
 pytestmark = [pytest.mark.nightly, pytest.mark.heavy, pytest.mark.timeout(3600)]
@@ -129,11 +129,13 @@ def assert_shown(shown, found):
     assert texts == cells
 
 
-def test_presets_in_the_study():
+# What the study starts from, and the place of its table on the page.
+@pytest.mark.parametrize(("options", "place"), [([], 0), (["--decimated"], 1)], ids=str)
+def test_presets_in_the_study(options, place):
     from studies import faithful, tools
 
-    results = faithful.measured(faithful.options_of([]), list(tools.presets()))
-    page = table_with(DOCS / "presets.md", "tool", "normal error")
+    results = faithful.measured(faithful.options_of(options), list(tools.presets()))
+    page = [rows for rows in tables(DOCS / "presets.md") if rows[0][1] == "normal error"][place]
     shown = {row[0]: row[1:-1] for row in page}
-    for row in results.means():
-        assert shown[row[0]] == row[1:-1]
+    found = {row[0]: row[1:-1] for row in results.means()}
+    assert found == {tool: shown[tool] for tool in found}

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import inspect
 import logging
 import os
-import pickle
 import socket
 import threading
 import time
@@ -16,24 +14,21 @@ from contextlib import ExitStack, closing, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import cloudpickle
-import pymeshlab
-
 from .. import memory
 from ..files import place_of
 from ..machine import MachineError, MachineWarning, core_count
 from ..mesh_files.paths import Output, check_output, check_place, find_inputs
 from ..messages import WrongUse, one_line
-from ..mlx.steps import ScriptError, Step
+from ..mlx.steps import Step
 from ..numba_settings import check_variables
 from ..progress import Listen, Listener
-from ..script import examined
 from . import records
 from .cluster import Cluster
 from .jobs import Job, plan
 from .pages import write_table
 from .pool import RENEWED_AFTER, STARTING, Attempted, Pool, PoolSettings, remove_stale
 from .process import CRASH, DONE, ERROR, MEMORY, TIMEOUT, Ended, Phase, Task
+from .recipe import Recipe, Script, described, recipe_of
 from .records import BAD_FILE, Earlier, Records, Result
 from .shards import shard_of
 from .work import READING, Line, Made, Note, Picture, Work
@@ -41,25 +36,12 @@ from .work import READING, Line, Made, Note, Picture, Work
 if TYPE_CHECKING:
     from distributed import Client
 
-Script = str | os.PathLike[str] | Iterable[Step] | Callable[[pymeshlab.MeshSet], Any]
-
 _log = logging.getLogger(__name__)
 
 _WORK = "meshlab_willmore.batch.work:do"
 _WARM_UP = "meshlab_willmore.batch.work:warm_up"
 # A worker itself takes a good part of that.
 LEAST_MEMORY = 2**28
-
-
-class Recipe(NamedTuple):
-    """What is done to each mesh: steps, or a pickled function, and what messages call them."""
-
-    steps: tuple[Step, ...] | bytes
-    source: str
-    is_measured: bool = True
-    must_be_measured: bool = False
-    dry_run: bool = False
-    is_pictured: bool = False
 
 
 class BatchOptions(NamedTuple):
@@ -213,25 +195,6 @@ def run(
             yield result
 
 
-def recipe_of(script: Script) -> Recipe:
-    """What a script or a function does to each mesh; raises `ScriptError` for a faulty script."""
-    if callable(script):
-        name = getattr(script, "__qualname__", repr(script))
-        try:
-            return Recipe(cloudpickle.dumps(script), name)
-        except (TypeError, pickle.PicklingError) as error:
-            raise WrongUse(
-                f"{name} can't be sent to workers: {one_line(error)}; what it uses of that kind "
-                "has to be made inside of it"
-            ) from error
-    is_file = isinstance(script, (str, os.PathLike))
-    source = os.fspath(script) if is_file else "filter script"  # type: ignore[arg-type]
-    found = examined(script)
-    if found.faults:
-        raise ScriptError(source, found.faults)
-    return Recipe(found.reading.steps, source)
-
-
 class Batch:
     """The jobs of a batch that are left to do, and what was done earlier.
 
@@ -247,7 +210,7 @@ class Batch:
         _check(options)
         self._recipe = recipe
         self._options = options
-        self._hash = records.recipe_of(*_description(recipe), *_manners(jobs))
+        self._hash = records.recipe_of(*described(recipe), *_manners(jobs))
         if options.log is not None:
             records.check(options.log, options.resume, options.force)
         log = options.log if options.resume else None
@@ -455,22 +418,6 @@ def _check(options: BatchOptions) -> None:
         raise WrongUse(
             "to go on with a batch its log is needed: the file with a line for each mesh"
         )
-
-
-def _description(recipe: Recipe) -> tuple[object, ...]:
-    """What of a recipe makes results differ."""
-    if isinstance(recipe.steps, bytes):
-        return (recipe.steps, _code(pickle.loads(recipe.steps)))
-    plain = [(s.filter, [(p.name, p.type, p.value) for p in s.params]) for s in recipe.steps]
-    return (plain, recipe.must_be_measured)
-
-
-def _code(function: object) -> str:
-    """The source of a function: one of a module is pickled by its name alone."""
-    try:
-        return inspect.getsource(function)  # type: ignore[arg-type]
-    except (OSError, TypeError):
-        return ""
 
 
 def _manners(jobs: Sequence[Job]) -> list[tuple[Any, ...]]:

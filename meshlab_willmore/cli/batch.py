@@ -27,8 +27,9 @@ from .text import how_many_failed, printable
 if TYPE_CHECKING:
     from distributed import Client
 
+    from ..batch.recipe import Recipe
     from ..batch.records import Result
-    from ..batch.runner import Batch, Recipe
+    from ..batch.runner import Batch
     from ..mesh_files.paths import Input, Output
 
 # Where click keeps the options of a batch that were given.

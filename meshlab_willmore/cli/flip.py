@@ -87,7 +87,7 @@ def command(
         raise WrongUse(f"{target} would be a project; only run writes projects")
     jobs = planned(inputs, [output], False, force)
     if is_batch(jobs):
-        from ..batch.runner import Recipe
+        from ..batch.recipe import Recipe
 
         run_batch(Recipe((_step(chosen),), "flip"), jobs, _line, force)
         return

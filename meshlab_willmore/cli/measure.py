@@ -102,7 +102,7 @@ def _measure(jobs: list[Job], measured: list[dict[str, Any]]) -> None:
     if not is_batch(jobs):
         measured.append(_measure_here(*jobs[0].inputs))
         return
-    from ..batch.runner import Recipe
+    from ..batch.recipe import Recipe
 
     def keep(result: Result, job: Job) -> str:
         measured.append({"file": job.name, **(result.before or {})})

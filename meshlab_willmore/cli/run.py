@@ -263,7 +263,7 @@ def _steps(source: Script, settings: Sequence[str]) -> tuple[Step, ...]:
 
 def _run_all(options: RunOptions, jobs: Sequence[Job]) -> None:
     if is_batch(jobs):
-        from ..batch.runner import Recipe
+        from ..batch.recipe import Recipe
 
         recipe = Recipe(options.steps, options.source, dry_run=options.dry_run)
         run_batch(recipe, jobs, partial(_line, options), options.force)

@@ -89,7 +89,8 @@ def test_script_on_many_meshes_and_again():
 
 HASH = """
 from meshlab_willmore.batch.jobs import Job
-from meshlab_willmore.batch.runner import Batch, BatchOptions, Recipe
+from meshlab_willmore.batch.recipe import Recipe
+from meshlab_willmore.batch.runner import Batch, BatchOptions
 from meshlab_willmore.mesh_files.paths import Output
 outputs = tuple(Output(f"{part}.ply", (part,)) for part in ("vc", "fc", "vn", "wt"))
 print(Batch(Recipe((), "script"), [Job((), outputs)], BatchOptions())._hash)

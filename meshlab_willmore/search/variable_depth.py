@@ -269,7 +269,7 @@ def _best_descent(kernels, begin, found, rules, settings):
             near = _where_they_differ(found.mesh, other.mesh)
             limits = settings.limits._replace(breadth=1)
             search = functools.partial(search_by_chains, kernels, limits=limits, changed=near)
-            reach = min(1.0, REACH * near.mean())
+            reach = min(1.0, REACH * np.count_nonzero(near) / max(len(near), 1))
             for place in range(len(ends)):
                 work = reach * sum(ENDS[place:])
                 with stage(reach * ENDS[place] / (work + REST)):

@@ -39,12 +39,21 @@ def package(tmp_path_factory):
     folder = tmp_path_factory.mktemp("copy")
     copy = folder / "meshlab_willmore"
     ignored = shutil.ignore_patterns("__pycache__")
-    shutil.copytree(ROOT / "meshlab_willmore", copy, ignore=ignored)
+    for name in ("meshlab_willmore", "pymeshlab-stubs", "generate", "tests"):
+        shutil.copytree(ROOT / name, folder / name, ignore=ignored)
+    shutil.copy(ROOT / "pyproject.toml", folder)
     (copy / "energy" / "squared_length.py").write_text(module.text, encoding="utf-8")
     table = copy / "energy" / "table.py"
     before, end, after = table.read_text(encoding="utf-8").partition("\n}\n")
     assert end
     table.write_text(f"{before}\n{row.text}}}\n{after}", encoding="utf-8")
+    options = copy / "options.py"
+    before, begin, after = options.read_text(encoding="utf-8").partition("EnergyName = Literal[\n")
+    # The names are in the order of the table.
+    names, end, after = after.partition("]\n")
+    assert end
+    text = f'{before}{begin}{names}    "squared length",\n{end}{after}'
+    options.write_text(text, encoding="utf-8")
     return folder
 
 
@@ -66,6 +75,16 @@ def run(folder, *arguments):
 
 def test_the_energy_of_the_recipe_falls_by_its_gain(package):
     run(package, "-c", USE)
+
+
+def test_the_tests_of_the_recipe_pass(package):
+    run(package, "-m", "generate.pymeshlab_stubs")
+    (line,) = (line for line in recipe()[2].text.splitlines() if "pytest" in line)
+    # The tests of the other energies have nothing to do with it, and take long.
+    options = "tests/test_options.py"
+    assert options in line
+    run(package, "-m", "pytest", "-q", "-n0", options)
+    assert "squared length" in (package / "pymeshlab-stubs" / "pmeshlab.pyi").read_text()
 
 
 def test_the_line_of_the_recipe_runs(package):

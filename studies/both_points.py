@@ -14,7 +14,7 @@ from meshlab_willmore.mesh.jit import generic, jit
 from meshlab_willmore.mesh.points import Point, subtract
 from meshlab_willmore.search import scoring
 from meshlab_willmore.search.compiled import KERNELS
-from meshlab_willmore.search.copies import copy_of
+from meshlab_willmore.search.copies import with_globals
 
 
 @jit
@@ -52,5 +52,5 @@ def cost_reduction(mesh, h, t):
 
 # The greedy search in rounds on it. Without a cache on disk, which would not notice an edit here.
 _NAMES = {"energy": sys.modules[__name__]}
-_SCORE = generic(copy_of(scoring.score_each, "score_both_points", _NAMES))
+_SCORE = generic(with_globals(scoring.score_each, "score_both_points", _NAMES))
 BOTH = KERNELS["virtual willmore"]._replace(score=_SCORE)

@@ -15,7 +15,7 @@ from ..energy import willmore
 from ..energy.table import AT, ENERGIES, VIRTUAL_POINTS
 from ..mesh.jit import jit
 from . import annealing, costs, scoring
-from .copies import copy_of
+from .copies import with_globals
 
 
 class Kernels(NamedTuple):
@@ -37,7 +37,7 @@ class Kernels(NamedTuple):
     losses : callable
         `meshlab_willmore.search.annealing.find_losses`, likewise.
     total : callable
-        The energy of a mesh that judges.
+        `total` of the energy that judges.
     most_loss : float
         What chains of flips may lose of it on their way.
     """
@@ -72,7 +72,7 @@ def compiled(template, energy, judge=None):
     """
     modules = [module.__name__.rpartition(".")[2] for module in (energy, judge) if module]
     name = "_".join([template.__name__, *modules])
-    return jit(copy_of(template, name, {"energy": energy, "judge": judge}))
+    return jit(with_globals(template, name, {"energy": energy, "judge": judge}))
 
 
 @functools.cache

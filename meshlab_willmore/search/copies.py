@@ -8,7 +8,7 @@ module, and each energy gets a copy in which that name means another module.
 from types import FunctionType
 
 
-def copy_of(template, name, names):
+def with_globals(template, name, names):
     """Return a copy of a function.
 
     Parameters

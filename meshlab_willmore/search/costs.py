@@ -1,6 +1,6 @@
 """The cost reductions of many edges, by the number of their energy.
 
-So a search is compiled once, and not once for each energy: which one it is is asked once for all
+So a search is compiled once, and not once for each energy: it asks which one it is once for all
 edges around a flip. Only where nearly all edges of a mesh are scored at a time
 (`meshlab_willmore.search.scoring`), or one edge is (`meshlab_willmore.search.annealing`), each
 energy has code of its own.
@@ -14,7 +14,7 @@ from numba.extending import overload
 
 from ..energy.table import AT, ENERGIES, VIRTUAL_POINTS
 from ..mesh.jit import inlined, inner
-from .copies import copy_of
+from .copies import with_globals
 
 # What an energy takes that depends on the place of the virtual points.
 PLACED = 3
@@ -72,9 +72,9 @@ def _end(number, mesh, edges, count, place, gains):
 def _linked(others, number):
     module = MODULES[number]
     name = module.__name__.rpartition(".")[2]
-    own = inner(copy_of(_find_own, f"_find_{name}", {"energy": module}))
+    own = inner(with_globals(_find_own, f"_find_{name}", {"energy": module}))
     names = {"own": own, "number_of_energy": number, "others": others}
-    return inlined(copy_of(_link, f"_link_{name}", names))
+    return inlined(with_globals(_link, f"_link_{name}", names))
 
 
 # The first is asked first.

@@ -78,7 +78,7 @@ from .stencil import EdgeList, visit_fans, visit_freed, visit_quad, visit_stenci
 
 # Edges that a flip scores, about, and so many that are scored at a time.
 SCORES_PER_FLIP = 16
-ROOM = 64
+ROOM = 128
 # The part of the time of a pass until all edges are scored, measured on scans.
 SCORING = 0.2
 
@@ -147,10 +147,10 @@ def _score(scorer, edges, count, gains):
     find_gains(energy, mesh, edges, free, rules.virtualpoint, gains)
     for s in range(free):
         h, gain, rank = np.int64(edges[s]), gains[s], NEVER
-        rises = gain > rules.tolerance and rules.monotone
-        rises = rises and willmore.cost_reduction(mesh, h) < -rules.tie
-        if gain > rules.tolerance and not rises and refusal(mesh, h, rules) == ALLOWED:
-            rank = np.rint(gain / rules.rank_step)
+        if gain > rules.tolerance:
+            rises = rules.monotone and willmore.cost_reduction(mesh, h) < -rules.tie
+            if not rises and refusal(mesh, h, rules) == ALLOWED:
+                rank = np.rint(gain / rules.rank_step)
         update(queue, h, rank)
 
 

@@ -107,7 +107,7 @@ def _search(work, start, stop):
         for place in range(start, stop):
             work.begun.append(place)
             count, done = len(work.regions), sum(one is not None for one in work.found)
-            report(done / count, "")
+            report(done / count, f"{done} of {count} parts")
             # The other threads go on meanwhile with what they have begun.
             part = (len(work.begun) - done) / (count - done)
             with stage(part, f"part {place + 1} of {count}"):

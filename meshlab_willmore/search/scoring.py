@@ -1,12 +1,11 @@
-"""What a flip gains: the rank of one edge in a queue, and the scores of many edges at once.
+"""What flips gain, for many edges at once, for the greedy search in rounds.
 
-`rank` and `rescore` serve the greedy search, the others the greedy search in rounds. For each
-energy `meshlab_willmore.search.compiled` makes a copy of one of these: `score_batches` for energies
-with a function `drop`, `score_quickly` with `quick_reduction`, else `score_each`. The first two
-gather the coordinates that flips look at from all over the mesh into the rows of one small array,
-one lane an edge. On these the arithmetic runs without branches, calls and gathers, so that the
-compiler does several lanes in one instruction. Each lane gets the bits that a single edge would
-get: nothing is reordered.
+For each energy `meshlab_willmore.search.compiled` makes a copy of one of these: `score_batches` for
+energies with a function `drop`, `score_quickly` with `quick_reduction`, else `score_each`. The
+first two gather the coordinates that flips look at from all over the mesh into the rows of one
+small array, one lane an edge. On these the arithmetic runs without branches, calls and gathers, so
+that the compiler does several lanes in one instruction. Each lane gets the bits that a single edge
+would get: nothing is reordered.
 """
 
 import math

@@ -30,7 +30,7 @@ the surface is rough from much further off. On the face scan both differ in one 
 follow there from both ends before these are compared, and then everywhere from the better one. It
 is the same at the end: what the search returns is not left for a better end of that descent either,
 so that a second run hardly ever makes a flip: only where flips tie, as there the order of the
-faces decides where descent ends. Chains do not depend on that order.
+faces decides where descent ends. Whether a chain helps does not depend on that order.
 
 **What a chain sees.** A chain of D flips that starts at the edge i-j reads the mesh at vertices at
 most D edges away from i or j. (The quad around an edge, and the corners of the faces outside, are

@@ -14,7 +14,7 @@ from meshlab_willmore.mesh.build import build
 from meshlab_willmore.mesh.halfedge import is_free
 from meshlab_willmore.search import annealing, costs, scoring
 from meshlab_willmore.search.compiled import KERNELS, PLACED_KERNELS, compiled
-from meshlab_willmore.search.copies import copy_of
+from meshlab_willmore.search.copies import with_globals
 from tests import meshes
 
 ROOT = Path(__file__).parents[2]
@@ -65,7 +65,9 @@ def test_the_number_of_an_energy_is_its_own():
 
 
 def test_a_copy_has_a_name_and_globals_of_its_own():
-    copies = [copy_of(annealing.anneal, f"of_{e.__name__}", {"energy": e}) for e in (area, virtual)]
+    copies = [
+        with_globals(annealing.anneal, f"of_{e.__name__}", {"energy": e}) for e in (area, virtual)
+    ]
     assert [copy.__globals__["energy"] for copy in copies] == [area, virtual]
     assert annealing.energy is willmore
     assert all(copy.__code__ is annealing.anneal.__code__ for copy in copies)

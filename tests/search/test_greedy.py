@@ -8,16 +8,16 @@ from scipy.optimize import brentq
 
 from meshlab_willmore import guards
 from meshlab_willmore.energy import virtual, willmore
-from meshlab_willmore.guards.bvh import build_bvh
+from meshlab_willmore.guards.bvh import build_bvh, inactive_bvh
 from meshlab_willmore.mesh.build import build, faces_of
-from meshlab_willmore.mesh.halfedge import apex, flip
-from meshlab_willmore.search import greedy
+from meshlab_willmore.mesh.halfedge import NONE, apex, flip
+from meshlab_willmore.search import containers, greedy
 from meshlab_willmore.search.compiled import KERNELS
 from meshlab_willmore.search.rules import CONVERGED, STOPPED, Rules
 from tests import meshes
 from tests.connectivity import can_flip, validate_connectivity
 from tests.guards import brute
-from tests.search.ways import shuffled
+from tests.search.ways import rules_for, shuffled
 
 ENERGIES = {"virtual willmore": virtual.cost_reduction, "willmore": willmore.cost_reduction}
 VIRTUAL = KERNELS["virtual willmore"]
@@ -294,3 +294,35 @@ def test_literal_descent_without_memory_does_go_round_in_circles():
 def _edges(mesh):
     inner = mesh.twin >= 0
     return np.column_stack([mesh.origin[inner], mesh.origin[mesh.twin[inner]]])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("energy", ["willmore", "gaussian curvature"])
+@pytest.mark.parametrize("more", [-1, 0, 1, 50])
+def test_more_edges_than_are_scored_at_a_time_may_watch_a_face(more, energy):
+    mesh, face = build(*meshes.bumpy_sphere(120, bump=0.6)), 5
+    count, rules = greedy.ROOM + more, rules_for(energy)
+
+    def state():
+        heap = containers.empty_heap(len(mesh.origin))
+        lists = containers.empty_watch_lists(len(mesh.origin) // 3)
+        room = np.empty(greedy.ROOM, np.int32), np.empty(greedy.ROOM), np.zeros(1, np.int64)
+        nothing = containers.empty_pair_set(), rules, inactive_bvh(), lists, np.zeros(1, bool)
+        return greedy.GreedyState(mesh, KERNELS[energy].number, heap, *nothing, *room)
+
+    def scorer(found):
+        return greedy._Scorer(mesh, found.energy, rules, found.queue)
+
+    watching = np.random.default_rng(0).permutation(len(mesh.origin))[:count]
+    at_once, one_by_one = state(), state()
+    for h in watching.tolist():
+        containers.watch(at_once.watch_lists, h, face)
+        greedy._score(scorer(one_by_one), np.array([h], np.int32), 1, np.empty(1))
+    greedy._rescore_freed(at_once, scorer(at_once), face)
+    assert at_once.watch_lists.first[face] == NONE
+    assert ranked(at_once.queue) == ranked(one_by_one.queue)
+
+
+def ranked(queue):
+    places = range(queue.size[0])
+    return {int(queue.item[place]): float(queue.priority[place]) for place in places}

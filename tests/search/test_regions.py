@@ -10,6 +10,7 @@ from meshlab_willmore.guards.bvh import build_bvh
 from meshlab_willmore.measure import willmore_energy_of
 from meshlab_willmore.mesh.build import build, faces_of
 from meshlab_willmore.mesh.halfedge import NONE, flip, is_free
+from meshlab_willmore.progress import listening
 from meshlab_willmore.search import greedy, regions, variable_depth
 from meshlab_willmore.search.compiled import KERNELS
 from meshlab_willmore.search.rules import CONVERGED, ChainLimits, Progress, Settings
@@ -193,8 +194,12 @@ def test_flips_before_the_chains_are_no_limit(monkeypatch):
     scrambled = build(*meshes.bumpy_sphere(60))
     scramble(scrambled, 1)
     assert greedy.run(KERNELS["willmore"], copy_of(scrambled), rules_for("willmore")).flips
-    searched(scrambled, "willmore")
+    heard = []
+    with listening(lambda fraction, text: heard.append(text), seconds=0.0):
+        searched(scrambled, "willmore")
     assert parts
+    assert all(heard)
+    assert any(" parts" in text for text in heard)
 
 
 def recording(function, calls):

@@ -30,7 +30,8 @@ def _plain_functions():
     """All functions of the package's modules that are not compiled, nor templates of kernels."""
     templates = {kernel.py_func.__code__ for kernel in jit.KERNELS}
     for found in pkgutil.walk_packages(meshlab_willmore.__path__, f"{meshlab_willmore.__name__}."):
-        if found.name.endswith("__main__"):
+        # The accessor needs PyVista, and calls no kernel itself.
+        if found.name.endswith(("__main__", "pyvista_accessor")):
             continue
         module = importlib.import_module(found.name)
         for name, value in vars(module).items():

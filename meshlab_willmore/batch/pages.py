@@ -111,14 +111,13 @@ def write_table(path: Path, source: str, jobs: Sequence[Job], results: Iterable[
     source : str
         What the script or function is called.
     jobs : sequence of Job
-        All of the batch; the results come in their order.
+        All of the batch; the results come in their order. One mesh may be the input of several.
     """
     from ..report.table import table_page
 
-    order = {job.name: (place, job.page) for place, job in enumerate(jobs)}
     entries = [
-        _entry(result, path, order[result.input][1])
-        for result in sorted(results, key=lambda one: order[one.input][0])
+        _entry(result, path, jobs[result.place].page)
+        for result in sorted(results, key=lambda one: one.place)
     ]
     title = f"{source}, {counted(len(jobs), 'input')}"
     legend = LEGEND if any(job.page for job in jobs) else f"{LEGEND} {HINT}"

@@ -84,9 +84,9 @@ class Result(NamedTuple):
         Of this package, of PyMeshLab and of Python.
     host, ended : str
         On which machine, and when.
-    trace, lines, picture : str, tuple of str, bytes
-        The traceback of an error, the lines for a log, and a PNG file for a report, which are not
-        recorded.
+    trace, lines, picture, place : str, tuple of str, bytes, int
+        The traceback of an error, the lines for a log, a PNG file for a report, and which of the
+        batch's inputs it is, from 0; these are not recorded.
     """
 
     input: str
@@ -111,6 +111,7 @@ class Result(NamedTuple):
     trace: str = ""
     lines: tuple[str, ...] = ()
     picture: bytes = b""
+    place: int = 0
 
     @property
     def is_done(self) -> bool:
@@ -120,7 +121,8 @@ class Result(NamedTuple):
     def as_json(self) -> dict[str, Any]:
         """The record of it."""
         record = self._asdict()
-        del record["trace"], record["lines"], record["picture"]
+        for key in ("trace", "lines", "picture", "place"):
+            del record[key]
         record["outputs"] = [saved._asdict() for saved in self.outputs]
         record["returned"] = [step._asdict() for step in self.returned]
         return record

@@ -30,7 +30,7 @@ from .pool import RENEWED_AFTER, STARTING, Attempted, Pool, PoolSettings, remove
 from .process import CRASH, DONE, ERROR, MEMORY, TIMEOUT, Ended, Phase, Task
 from .recipe import Recipe, Script, described, recipe_of
 from .records import BAD_FILE, Earlier, Records, Result
-from .shards import shard_of
+from .shards import Shard, shard_of
 from .work import READING, Line, Made, Note, Picture, Work
 
 if TYPE_CHECKING:
@@ -124,7 +124,8 @@ def run(
     report : path, optional
         A page for a browser, with a table of all meshes, that is written in the end, also where the
         caller ends the batch. With a placeholder, such as ``pages/{name}.html``, each mesh gets a
-        page of its own instead.
+        page of its own instead. With a `shard` the name of a table needs ``{shard}``, which becomes
+        the share's number.
     progress : callable, optional
         Called with the fraction of the meshes that are done (without those that `resume` leaves
         out) and a text with their names: after each result that was taken, twice a second while
@@ -156,7 +157,8 @@ def run(
             listener.end()
         return
     outputs = [] if output is None else [Output(os.fspath(output))]
-    page = None if report is None else Output(os.fspath(report))
+    share = None if shard is None else shard_of(shard)
+    page = None if report is None else _page(os.fspath(report), share)
     table = None if page is None or page.has_placeholder else page.path
     is_continued = resume or retry_failed
     jobs = plan(
@@ -164,7 +166,7 @@ def run(
         outputs,
         False,
         force or is_continued,
-        None if shard is None else shard_of(shard),
+        share,
         page if table is None else None,
     )
     if table is not None:
@@ -195,6 +197,16 @@ def run(
             yield result
 
 
+def _page(name: str, share: Shard | None) -> Output:
+    """The page of the table, or of each mesh if the name has placeholders."""
+    if share is None:
+        return Output(name)
+    page = Output(share.in_name(name))
+    if not page.has_placeholder:
+        share.check_table(name)
+    return page
+
+
 class Batch:
     """The jobs of a batch that are left to do, and what was done earlier.
 
@@ -218,16 +230,18 @@ class Batch:
         self._begun = known.begun.get(self._hash, time.time())
         self.earlier: list[Result] = []
         self.jobs: list[Job] = []
+        self._places: list[int] = []
         # Taken before the inputs are read: one that changes meanwhile is another one.
         self._stamps: list[tuple[int, int]] = []
-        for job in jobs:
+        for place, job in enumerate(jobs):
             outputs = [str(output.path) for output in job.outputs]
             stamp = records.stamp(job.sources)
             settled = known.settles(job.name, self._hash, stamp, outputs)
             if settled is not None and (settled.is_done or not options.retry_failed):
-                self.earlier.append(settled)
+                self.earlier.append(settled._replace(place=place))
             else:
                 self.jobs.append(job)
+                self._places.append(place)
                 self._stamps.append(stamp)
         if options.resume:
             self._check_outputs()
@@ -377,6 +391,7 @@ class Batch:
             trace=ended.trace,
             lines=tuple(message.text for message in heard if isinstance(message, Line)),
             picture=next((one.png for one in reversed(heard) if isinstance(one, Picture)), b""),
+            place=self._places[key],
         )
 
     def _outcome(self, job: Job, ended: Ended) -> tuple[str, str]:

@@ -10,12 +10,15 @@ import os
 import re
 import zlib
 from collections.abc import Mapping
+from pathlib import PurePath
 from typing import NamedTuple
 
 from ..messages import WrongUse
 
 AUTO = "auto"
 _PATTERN = re.compile(r"(\d+)/(\d+)")
+# The number of the share in the name of a report; a brace itself is written twice.
+_PLACEHOLDER = re.compile(r"(?<!\{)\{shard\}(?!\})")
 _SLURM = "SLURM_ARRAY_TASK_"
 _KUBERNETES = ("JOB_COMPLETION_INDEX", "JOB_COMPLETIONS")
 
@@ -29,6 +32,20 @@ class Shard(NamedTuple):
     def has(self, name: str) -> bool:
         """Whether an input belongs to this share."""
         return zlib.crc32(os.fsencode(name)) % self.of == self.number - 1
+
+    def in_name(self, name: str) -> str:
+        """The name with this share's number in place of ``{shard}``."""
+        return _PLACEHOLDER.sub(str(self.number), name)
+
+    def check_table(self, name: str) -> None:
+        """Raise `WrongUse` if all shares would write their tables to the same file."""
+        if self.in_name(name) == name:
+            path = PurePath(name)
+            example = path.with_name(f"{path.stem}-{{shard}}{path.suffix}")
+            raise WrongUse(
+                f"{name} would be the table of each share, and the last one would replace the "
+                f"others; write the share's number into the name, such as '{example}'"
+            )
 
 
 def shard_of(text: str, environment: Mapping[str, str] | None = None) -> Shard:

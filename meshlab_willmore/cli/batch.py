@@ -145,7 +145,7 @@ def planned(
     """The jobs of a command, or those of its shard; see `meshlab_willmore.batch.jobs.plan`."""
     given = given_options()
     shard = shard_of(given["shard"]) if "shard" in given else None
-    reports = check_reports(len(inputs) > 1 and not layers, force or is_resumed())
+    reports = check_reports(len(inputs) > 1 and not layers, force or is_resumed(), shard)
     if reports != Reports() and not inputs:
         raise WrongUse("--report shows a mesh before and after, and there is no input")
     return plan(inputs, outputs, layers, force or is_resumed(), shard, reports.page, not dry_run)
@@ -172,7 +172,6 @@ def run_batch(
 
     given = given_options()
     summary = Summary()
-    by_name = {job.name: job for job in jobs}
     table = None if recipe.dry_run else chosen_reports().table
     recipe = recipe._replace(is_pictured=table is not None)
     shown: list[Result] = []
@@ -198,7 +197,7 @@ def run_batch(
             for text in result.notes:
                 note(text)
             if result.is_done:
-                if is_shown and (line := line_of(result, by_name[result.input])):
+                if is_shown and (line := line_of(result, jobs[result.place])):
                     click.echo(line)
                 continue
             if result.trace and is_debug():

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import click
 
+from ..batch.shards import Shard
 from ..mesh_files.paths import Output, check_place
 from ..messages import WrongUse
 
@@ -40,24 +41,26 @@ report_option = click.option(
 )
 
 
-def check_reports(is_several: bool, force: bool) -> Reports:
+def check_reports(is_several: bool, force: bool, shard: Shard | None = None) -> Reports:
     """The pages that were asked for, which `chosen_reports` returns from now on.
 
     With `is_several` there may be several meshes. Raises `WrongUse` if a name can't be that of a
-    page, or exists and `force` is false; a name with a placeholder is checked when that is filled
-    in.
+    page, or exists and `force` is false, or is that of the tables of all shares; a name with a
+    placeholder is checked when that is filled in.
     """
     meta = click.get_current_context().meta
     page, table = None, None
     for name in meta.get(_NAMES, ()):
         if not name.lower().endswith(_ENDINGS):
             raise WrongUse(f"--report {name}: a page needs a name such as report.html")
-        output = Output(name)
+        output = Output(name if shard is None else shard.in_name(name))
         is_table = is_several and not output.has_placeholder
         if (table if is_table else page) is not None:
             what = "the table of all meshes" if is_table else "the page of a mesh"
             raise WrongUse(f"--report {name}: {what} has a name already; name it once")
         if is_table:
+            if shard is not None:
+                shard.check_table(name)
             check_place(output.path, force, "report.html")
             table = output.path
         else:

@@ -112,11 +112,48 @@ def test_batch_has_a_table_and_pages(monkeypatch):
     assert table.links == ["pages/one.html", "pages/two.html"]
 
 
+def test_a_mesh_that_is_named_twice_has_two_lines_rows_and_pages(cube):
+    words = ["flip", cube, cube, "flipped_{index}.off", "--workers", 1]
+    report = ["--report", "all.html", "--report", "page_{index}.html"]
+    result = call(*words, *report)
+    assert result.exit_code == 0
+    starts = [line.partition(":")[0] for line in result.stdout.splitlines()]
+    assert starts == ["cube.ply -> flipped_1.off", "cube.ply -> flipped_2.off"]
+    table = Table("all.html")
+    assert [row.split("|")[1] for row in table.rows] == ["Name", "cube.ply", "cube.ply"]
+    assert table.links == ["page_1.html", "page_2.html"]
+
+
+def test_each_share_has_a_table_of_its_own():
+    # The first share has "four.ply", the second "one.ply".
+    for name in ("four", "one"):
+        cube_file(f"{name}.ply")
+    words = ["flip", "four.ply", "one.ply", "{name}.off", "--json", "log.jsonl", "--resume"]
+    refused = call(*words, "--shard", "1/2", "--report", "all.html")
+    assert refused.exit_code == 2
+    assert refused.stderr == (
+        "Error: all.html would be the table of each share, and the last one would replace the "
+        "others; write the share's number into the name, such as 'all-{shard}.html'\n"
+    )
+    with pytest.raises(WrongUse, match=r"all\.html would be the table of each share"):
+        next(batch.run(script_file(FLIP), ["four.ply", "one.ply"], shard="1/2", report="all.html"))
+    assert listing(".") == ["four.ply", "one.ply", "script.mlx"]
+    for share in ("1/2", "2/2"):
+        report = ["--report", "all-{shard}.html", "--report", "{name}-{shard}.html"]
+        assert call(*words, "--shard", share, *report).exit_code == 0
+    rows = [Table(f"all-{number}.html").rows[1].split("|")[1] for number in (1, 2)]
+    assert rows == ["four.ply", "one.ply"]
+    assert {"four-1.html", "one-2.html"} <= set(listing("."))
+    # Of all shares at once.
+    assert call(*words, "--report", "all.html").exit_code == 0
+    assert len(Table("all.html").rows) == 3
+
+
 def test_everything_in_a_table_is_escaped():
     step = StepResult(1, EVIL, 0.5, {"flips": 3})
     results = [
         Result(EVIL, EVIL, step=EVIL, reason=EVIL, notes=(EVIL,)),
-        Result("fine", "done", notes=(EVIL,), returned=(step,), picture=b"\x89PNG"),
+        Result("fine", "done", notes=(EVIL,), returned=(step,), picture=b"\x89PNG", place=1),
     ]
     jobs = [Job((Path(one.input),), ()) for one in results]
     pages.write_table(Path("all.html"), EVIL, jobs, results)

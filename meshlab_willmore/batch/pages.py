@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -39,6 +40,27 @@ def surface_of(ms: pymeshlab.MeshSet) -> Surface | None:
     return current_surface(ms) if ms.mesh_number() else None
 
 
+@contextmanager
+def _noted(name: str) -> Iterator[None]:
+    """Inside, a failure is a note that `name` is not written: the mesh is saved all the same.
+
+    A mesh may have coordinates that are not finite, or be too large for the memory or the disk.
+    """
+    try:
+        yield
+    except (MemoryError, OSError, ValueError) as error:
+        reason = one_line(error).removeprefix(f"cannot write {name}: ")
+        note(f"{name} is not written: {reason}")
+
+
+def current_picture(ms: pymeshlab.MeshSet) -> bytes | None:
+    """A small picture of the current mesh; None without a mesh, or with a note if that fails."""
+    with _noted("its picture"):
+        surface = surface_of(ms)
+        return None if surface is None else picture(surface)
+    return None
+
+
 def picture(surface: Surface) -> bytes:
     """A small picture of a mesh; empty if it has coordinates that are not finite."""
     from .. import thumbnail
@@ -53,37 +75,36 @@ def picture(surface: Surface) -> bytes:
 
 def write_page(
     job: Job,
-    surfaces: tuple[Surface | None, Surface | None],
+    before: Surface | None,
+    ms: pymeshlab.MeshSet,
     steps: Sequence[Step] | bytes,
     returned: Sequence[StepResult],
     seconds: float,
     notes: Sequence[str],
 ) -> None:
-    """Write the report page of a job, if it has one; the seconds are those of all steps.
+    """Write the report page of a job, if it has one: the current mesh, and the one `before`.
 
-    A mesh that no page can be made of, as it has coordinates that are not finite or is too large
-    for the memory, gets a note.
+    The seconds are those of all steps. If there is no such page, as a mesh has coordinates that are
+    not finite, or the memory or the disk has no room, there is a note.
     """
     from ..report import page
 
-    before, after = surfaces
     if job.page is None:
         return
-    if before is None or after is None:
-        note(f"{job.page} is not written: there is no mesh {'after' if before else 'before'}")
-        return
-    settings = {
-        **({} if isinstance(steps, bytes) else _steps(steps)),
-        **{f"Step {one.number} returned": _listed(one.returned) for one in returned},
-        "Inputs": job.name,
-        "Outputs": ", ".join(output.name for output in job.outputs) or "none",
-        **{name: number for name, number in versions().items() if name != "meshlab_willmore"},
-    }
-    title = ", ".join(path.name for path in job.inputs)
-    try:
+    with _noted(str(job.page)):
+        after = surface_of(ms)
+        if before is None or after is None:
+            note(f"{job.page} is not written: there is no mesh {'after' if before else 'before'}")
+            return
+        settings = {
+            **({} if isinstance(steps, bytes) else _steps(steps)),
+            **{f"Step {one.number} returned": _listed(one.returned) for one in returned},
+            "Inputs": job.name,
+            "Outputs": ", ".join(output.name for output in job.outputs) or "none",
+            **{name: number for name, number in versions().items() if name != "meshlab_willmore"},
+        }
+        title = ", ".join(path.name for path in job.inputs)
         page(before, after, job.page, title=title, settings=settings, seconds=seconds, notes=notes)
-    except (MemoryError, ValueError) as error:
-        note(f"{job.page} is not written: {one_line(error)}")
 
 
 def _steps(steps: Iterable[Step]) -> dict[str, str]:

@@ -115,8 +115,8 @@ def do(work: Work, say: Say) -> Made:
         with memory.limited(memory.reachable()):
             ms = load(work.job, is_isolated=True)
         begin(MEASURING)
-        surface = pages.surface_of(ms) if work.is_pictured or work.job.page else None
-        _send_picture(work, surface, say)
+        surface = pages.surface_of(ms) if work.job.page else None
+        _send_picture(work, ms, say)
         with lost_kernels.noted():
             before = _measures(ms, work)
             start = time.perf_counter()
@@ -129,16 +129,14 @@ def do(work: Work, say: Say) -> Made:
         outputs = tuple(save_all(ms, work.job, options))
         begin(MEASURING)
         after = _measures(ms, work) if work.steps else None
-        if surface is not None:
-            result = pages.surface_of(ms)
-            _send_picture(work, result, say)
-            pages.write_page(work.job, (surface, result), work.steps, returned, seconds, notes)
+        _send_picture(work, ms, say)
+        pages.write_page(work.job, surface, ms, work.steps, returned, seconds, notes)
     return Made(outputs, tuple(returned), steps, before, after)
 
 
-def _send_picture(work: Work, surface: pages.Surface | None, say: Say) -> None:
-    if work.is_pictured and surface is not None:
-        say(Picture(pages.picture(surface)))
+def _send_picture(work: Work, ms: pymeshlab.MeshSet, say: Say) -> None:
+    if work.is_pictured and (png := pages.current_picture(ms)) is not None:
+        say(Picture(png))
 
 
 def _time_to_read(job: Job) -> float | None:

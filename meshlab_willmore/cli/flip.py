@@ -125,8 +125,7 @@ def _flip(job: Job, given: dict[str, Any], force: bool) -> Result:
         step = StepResult(1, FILTER, returned["seconds"], returned)
         if job.page is not None:
             status.begin(f"writing {job.page}")
-            surfaces = (before, surface_of(ms))
-            write_page(job, surfaces, (_step(given),), (step,), step.seconds, notes)
+            write_page(job, before, ms, (_step(given),), (step,), step.seconds, notes)
     return Result(job.name, DONE, returned=(step,))
 
 

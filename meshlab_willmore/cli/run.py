@@ -315,14 +315,15 @@ def _run_job(options: RunOptions, job: Job) -> str:
         saved = _save(ms, job, options)
         seconds = time.perf_counter() - start
         if job.page is not None:
-            _write_page(job, (before, surface_of(ms)), options, played, notes)
+            _write_page(job, before, ms, options, played, notes)
     line = f"{job.name} -> {saved}: {_did(options, len(calls))}, {seconds:.1f} s"
     return "\n".join([printable(line), *step_results(played)])
 
 
 def _write_page(
     job: Job,
-    surfaces: tuple[Surface | None, Surface | None],
+    before: Surface | None,
+    ms: pymeshlab.MeshSet,
     options: RunOptions,
     played: Sequence[Played],
     notes: Sequence[str],
@@ -333,7 +334,8 @@ def _write_page(
     results = [StepResult(p.number, p.name, p.seconds, p.returned) for p in played if p.returned]
     with progress.shown(job.name) as status:
         status.begin(f"writing {job.page}")
-        write_page(job, surfaces, options.steps, results, sum(p.seconds for p in played), notes)
+        seconds = sum(p.seconds for p in played)
+        write_page(job, before, ms, options.steps, results, seconds, notes)
 
 
 def _load(job: Job) -> pymeshlab.MeshSet:

@@ -8,10 +8,12 @@ from pathlib import Path
 import pytest
 
 from meshlab_willmore import batch
-from meshlab_willmore.batch import pages
+from meshlab_willmore.batch import pages, work
 from meshlab_willmore.batch.jobs import Job
 from meshlab_willmore.batch.records import Result, StepResult
 from meshlab_willmore.demo.models import Surface
+from meshlab_willmore.mesh_files import loading
+from meshlab_willmore.mesh_files.paths import Output
 from meshlab_willmore.messages import WrongUse
 from tests import meshes
 
@@ -257,12 +259,46 @@ def test_picture_of_many_faces_is_one_of_some(monkeypatch):
     assert pages.picture(Surface(vertices * float("nan"), faces)) == b""
 
 
-def test_mesh_too_large_for_a_page_is_saved_all_the_same(cube, monkeypatch):
-    def fail(*_given, **_more):
-        raise MemoryError("no room")
+@pytest.mark.parametrize(
+    ("place", "error", "reason"),
+    [
+        ("report.document.examined", MemoryError("no room"), "no room"),
+        ("files.atomic_write", OSError(28, "No space left on device"), "No space left on device"),
+        ("batch.pages.current_surface", MemoryError(), "MemoryError"),
+    ],
+)
+def test_mesh_without_room_for_its_page_is_saved_all_the_same(
+    cube, monkeypatch, place, error, reason
+):
+    job = Job((cube,), (Output("out.ply"),), page=Path("page.html"))
+    surface = pages.current_surface(loading.loaded(cube))
+    heard = []
 
-    monkeypatch.setattr("meshlab_willmore.report.document.examined", fail)
+    def fail_once_it_is_saved(*_given):
+        if Path("out.ply").exists():
+            raise error
+        return surface
+
+    monkeypatch.setattr(f"meshlab_willmore.{place}", fail_once_it_is_saved)
+    done = work.do(work.Work(job, (), "none", is_pictured=True), heard.append)
+    assert [saved.file for saved in done.outputs] == ["out.ply"]
+    assert work.Note(f"page.html is not written: {reason}") in heard
+    assert listing(".") == ["cube.ply", "out.ply"]
+    Path("out.ply").unlink()
     result = call("flip", cube, "out.ply", "--report", "page.html")
     assert result.exit_code == 0
-    assert result.stderr == "Note: page.html is not written: no room\n"
+    assert result.stderr == f"Note: page.html is not written: {reason}\n"
     assert listing(".") == ["cube.ply", "out.ply"]
+
+
+def test_mesh_without_room_for_its_picture_is_saved_all_the_same(cube, monkeypatch):
+    def fail(*_given):
+        raise MemoryError
+
+    monkeypatch.setattr("meshlab_willmore.thumbnail.picture", fail)
+    heard = []
+    job = Job((cube,), (Output("out.ply"),))
+    done = work.do(work.Work(job, (), "none", is_pictured=True), heard.append)
+    assert [saved.file for saved in done.outputs] == ["out.ply"]
+    notes = [one for one in heard if isinstance(one, work.Note)]
+    assert notes == [work.Note("its picture is not written: MemoryError")]

@@ -16,7 +16,7 @@ from ..mesh_files.paths import (
     check_output,
     check_place,
 )
-from ..mesh_files.projects import files_of
+from ..mesh_files.projects import check_layers, files_of, project_of
 from ..messages import WrongUse
 from .shards import Shard
 
@@ -80,6 +80,8 @@ def plan(
         for output, pattern in zip(job.outputs, outputs, strict=False):
             if _has_folder(job, output.path, pattern, makes_folders):
                 check_output(output.path, force)
+                if output.is_project and not force:
+                    check_layers(output.path)
             else:
                 check_format(output.path)
         if page is None or job.page is None:
@@ -156,12 +158,23 @@ def _jobs(
             yield Job((path,), filled, problem, None if problem else page_of(path, index))
 
 
-def _check_distinct(jobs: Iterable[Job], inputs: Iterable[Path]) -> None:
+def _check_distinct(jobs: Sequence[Job], inputs: Iterable[Path]) -> None:
     """Raise `WrongUse` if two outputs have one name, or one that of an input yet to be read.
 
-    An input may be replaced by its own result.
+    The names of all layers that a project may have are its own. An input may be replaced by its own
+    result.
     """
+    projects = {
+        _identity(output.path.with_suffix("")): (job, output.path)
+        for job in jobs
+        for output in job.outputs
+        if output.is_project
+    }
     readers = {_identity(path): path for path in inputs}
+    for path in readers.values():
+        writer, _ = projects.get(_project_key(path), (None, None))
+        if writer is not None and writer.inputs[0] != path:
+            raise WrongUse(f"the result of {writer.name} would replace the input {path}")
     writers: dict[str, Job] = {}
     for job in jobs:
         source = job.inputs[0] if job.inputs else Path("the script's own mesh")
@@ -175,7 +188,15 @@ def _check_distinct(jobs: Iterable[Job], inputs: Iterable[Path]) -> None:
                 raise _clash(other.inputs[0], source, path)
             if readers.get(key, source) != source:
                 raise WrongUse(f"the result of {source} would replace the input {path}")
+            if (project := projects.get(_project_key(path))) is not None:
+                raise WrongUse(f"{path} may become a layer of {project[1]}; use another name")
             writers[key] = job
+
+
+def _project_key(file: Path) -> str:
+    """The key of the project that may save a layer as this file; empty without one."""
+    project = project_of(file)
+    return "" if project is None else _identity(project)
 
 
 def _clash(first: Path, second: Path, output: Path) -> WrongUse:

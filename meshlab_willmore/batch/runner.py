@@ -18,6 +18,7 @@ from .. import memory
 from ..files import place_of
 from ..machine import MachineError, MachineWarning, core_count
 from ..mesh_files.paths import Output, check_output, check_place, find_inputs
+from ..mesh_files.projects import check_layers
 from ..messages import WrongUse, one_line
 from ..mlx.steps import Step
 from ..numba_settings import check_variables
@@ -254,10 +255,15 @@ class Batch:
 
     def _check_outputs(self) -> None:
         """Raise `WrongUse` if an output exists that is not of this batch."""
+
+        def is_own(path: Path) -> bool:
+            return path.exists() and path.stat().st_mtime >= self._begun
+
         for job in self.jobs:
             for output in job.outputs:
-                is_own = output.path.exists() and output.path.stat().st_mtime >= self._begun
-                check_output(output.path, self._options.force or is_own)
+                check_output(output.path, self._options.force or is_own(output.path))
+                if output.is_project and not self._options.force:
+                    check_layers(output.path, is_own)
 
     @property
     def running(self) -> list[tuple[str, str]]:

@@ -1,12 +1,14 @@
 """MeshLab's projects (`.mlp`): all layers of a set, with their labels, places and visibility.
 
-PyMeshLab reads them itself, once each mesh has been read as any other input is. It writes none of
-the meshes, and names none that a project has not been read from: they are saved beside the project.
+PyMeshLab reads a project itself, after each of its meshes has been read as any other input is. Its
+own function for writing one saves no mesh. So here all meshes are saved, beside a project that
+names them.
 """
 
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Iterator
 from contextlib import nullcontext
 from pathlib import Path
@@ -24,8 +26,11 @@ if TYPE_CHECKING:
     import pymeshlab
 
 _DOCTYPE = "MeshLabDocument"
-_MESH, _MATRIX, _RASTER = "MLMesh", "MLMatrix44", "MLRaster"
+_MESH, _MATRIX = "MLMesh", "MLMatrix44"
 _SIDE = 4
+# The name of a layer's mesh: that of its project, and the number of the layer.
+_OWN_NAME = re.compile(r"(.+)_(?:0|[1-9]\d*)", re.DOTALL)
+_ENDING = ".ply"
 # Of an element that says nothing else.
 _VISIBLE = "1"
 
@@ -72,6 +77,35 @@ def files_of(path: Path) -> list[Path]:
         return [path, *(layer.file for layer in layers_of(path))] if is_project(path) else [path]
     except OSError:
         return [path]
+
+
+def project_of(file: Path) -> Path | None:
+    """The project that would save a layer as this file, without its ending; None without one."""
+    found = _OWN_NAME.fullmatch(file.stem)
+    if found is None or file.suffix != _ENDING:
+        return None
+    # A layer may have a folder of its own.
+    folder = file.parent.parent if file.parent.name == file.stem else file.parent
+    return folder / found[1]
+
+
+def check_layers(path: Path, is_own: Callable[[Path], bool] = lambda file: False) -> None:
+    """Raise `WrongUse` if a file exists that has the name of a layer of the project `path`.
+
+    How many layers there will be is not known before the script has run. Files that are the
+    batch's own (`is_own`) may be replaced.
+    """
+    for name in sorted(os.listdir(path.parent)):
+        if not name.startswith(f"{path.stem}_"):
+            continue
+        file = path.parent / name
+        if file.is_dir():
+            file /= f"{name}{_ENDING}"
+        if project_of(file) == path.with_suffix("") and os.path.lexists(file) and not is_own(file):
+            raise WrongUse(
+                f"{file} already exists; use --force to overwrite, as a layer of {path} may get "
+                "this name"
+            )
 
 
 def load_project(ms: pymeshlab.MeshSet, path: Path, is_isolated: bool = False) -> None:
@@ -125,7 +159,7 @@ def save_project(
 
     The mesh of layer i of ``out.mlp`` is ``out_i.ply``, in a folder ``out_i`` if one of its
     textures has the name of another layer's. `saving` gives a context for each file. Raises
-    `OSError` in one line; then there is no new project.
+    `OSError` in one line; then there is no new project, and no new mesh of a layer.
     """
     from ..meshset import native
 
@@ -135,14 +169,20 @@ def save_project(
     names = _names(ms, path.stem)
     current = native.current_id(ms)
     files: list[Path] = []
+    new: list[Path] = []
     try:
         for mesh_id, name in zip(ids, names, strict=True):
             ms.set_current_mesh(mesh_id)
             file = path.parent / name
+            new += [] if os.path.lexists(file) else [file]
             with saving(file):
                 if file.parent != path.parent:
                     writable_folder(file.parent)
                 files += save(ms, file, options)
+    except OSError:
+        for file in new:
+            file.unlink(missing_ok=True)
+        raise
     finally:
         native.make_current(ms, current)
     if count := ms.raster_number():

@@ -1,6 +1,7 @@
 """`run` on MeshLab's projects: layers with their labels, places and visibility, in and out."""
 
 import json
+import os
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 
 from meshlab_willmore import batch
 from meshlab_willmore.mesh_files.projects import save_project
-from meshlab_willmore.mesh_files.saving import SaveOptions
+from meshlab_willmore.mesh_files.saving import SaveOptions, save
 from meshlab_willmore.messages import notes_taken_by
 
 from .conftest import (
@@ -138,16 +139,56 @@ def test_a_project_that_came_meanwhile_is_not_replaced():
     assert not Path("out_0.ply").exists()
 
 
-@pytest.mark.parametrize("name", ["out.mlp", "out_1.ply"])
+@pytest.mark.parametrize("name", ["out.mlp", "out_1.ply", "out_1/out_1.ply"])
 def test_no_file_is_replaced_without_force(project, name):
+    before = listing()
+    Path(name).parent.mkdir(exist_ok=True)
     Path(name).write_text("mine")
     result = call("run", "-p", project, "-w", "out.mlp")
-    assert result.exit_code in (1, 2)
+    assert result.exit_code == 2
     assert f"{name} already exists; use --force to overwrite" in result.stderr
     assert Path(name).read_text() == "mine"
-    assert (name == "out.mlp") == Path("out.mlp").exists()
+    # Nothing has run: there is no other layer either.
+    assert listing() == sorted([*before, name.partition("/")[0]])
     assert call("run", "-p", project, "-w", "out.mlp", "--force").exit_code == 0
     assert layers_of("out.mlp") == layers_of(project)
+
+
+@pytest.mark.parametrize("name", ["out_1.ply", "out_0/out_0.ply"])
+def test_no_output_may_have_the_name_of_a_layer(project, name):
+    Path("out_0").mkdir()
+    before = listing()
+    result = call("run", "-p", project, "-o", name, "-l", "0", "-w", "out.mlp")
+    assert result.exit_code == 2
+    assert result.stderr == f"Error: {name} may become a layer of out.mlp; use another name\n"
+    assert listing() == before
+    # These are no names of layers.
+    others = ["-o", "out_01.ply", "-l", "0", "-o", "out_x.ply", "-l", "1", "-o", "out_1.off"]
+    assert call("run", "-p", project, *others, "-l", "1", "-w", "out.mlp").exit_code == 0
+
+
+def test_no_layer_replaces_another_input(project):
+    cube_file("in_0.ply")
+    result = call("run", "-i", project, "-i", "in_0.ply", "-w", "{name}.mlp", "--force")
+    assert result.exit_code == 2
+    assert result.stderr == "Error: the result of in.mlp would replace the input in_0.ply\n"
+
+
+def test_an_error_leaves_no_layer(project, monkeypatch):
+    def fail(ms, path, options):
+        if path.name == "out_1.ply":
+            raise OSError("cannot write out_1.ply: No space left on device")
+        return save(ms, path, options)
+
+    before = listing()
+    monkeypatch.setattr("meshlab_willmore.mesh_files.projects.save", fail)
+    result = call("run", "-p", project, "-w", "out.mlp")
+    assert result.exit_code == 1
+    assert listing() == before
+    # What was there before stays.
+    Path("out_0.ply").write_text("mine")
+    assert call("run", "-p", project, "-w", "out.mlp", "--force").exit_code == 1
+    assert listing() == sorted([*before, "out_0.ply"])
 
 
 def test_projects_are_a_batch(project):
@@ -167,6 +208,13 @@ def test_projects_are_a_batch(project):
     done = [record["input"] for record in records if record.get("status") == "done"]
     assert sorted(done) == ["in.mlp", "in.mlp", "other.mlp"]
     assert len(loaded("out/in_0.ply").faces) == 3022
+    # Nor does one that goes on replace a file from before it.
+    assert call(*arguments, "--retry-failed").exit_code == 1
+    Path("out/wrong_0.ply").write_text("mine")
+    os.utime("out/wrong_0.ply", (0, 0))
+    result = call(*arguments, "--retry-failed")
+    assert result.exit_code == 2
+    assert result.stderr.startswith("Error: out/wrong_0.ply already exists")
 
 
 def test_python_function_takes_projects(project):

@@ -310,7 +310,7 @@ BATCHES = [
     Fault(
         "a file of the user is replaced when a batch goes on",
         "batch/runner.py",
-        "check_output(output.path, self._options.force or is_own)",
+        "check_output(output.path, self._options.force or is_own(output.path))",
         "check_output(output.path, True)",
         "tests/batch/test_runner.py",
     ),

@@ -1,10 +1,10 @@
 """Writes `native_filters.json`: how MeshLab names its filters and parameters, what they return.
 
-PyMeshLab doesn't tell these names, but a filter that was applied stands in the set's script with
-all its parameters. So each filter is applied to a small model and the script is read. Some filters
-crash on such models or for want of a graphics card: each runs in a child process, and the few that
-can't be run keep the entry that they have in the file, which was read from MeshLab's sources and is
-marked by an empty model.
+PyMeshLab has no function for these names, but the script of a set contains each filter that was
+applied, with all its parameters. So each filter is applied to a small model and the script is read.
+Some filters crash on such models or for want of a graphics card: each runs in a child process, and
+the few that can't be run keep the entry that they have in the file, which was read from MeshLab's
+sources and is marked by an empty model.
 
     python -m generate.native_filters
 

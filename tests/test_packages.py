@@ -9,16 +9,18 @@ from pathlib import Path
 
 import pytest
 
+from tests.extras import needs
+
 ROOT = Path(__file__).parents[1]
 SCRIPTS = sorted(path.name for path in (ROOT / "filter_scripts").glob("*.mlx"))
-IS_CI = os.environ.get("CI") == "true"
 # They need no kernel.
 QUICK = ["tests/test_files.py", "tests/test_filter_scripts.py", "tests/cli/test_shipped.py"]
 
-pytestmark = [pytest.mark.slow, pytest.mark.timeout(600)]
-if not IS_CI:
-    for module in ("build", "twine"):
-        pytest.importorskip(module, reason="it comes with the extra 'dist'")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.timeout(600),
+    *(needs(module, "dist") for module in ("build", "twine")),
+]
 
 
 def run(*arguments, **given):

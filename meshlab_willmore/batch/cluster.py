@@ -47,6 +47,8 @@ class Cluster(Generic[Key]):
     ) -> Iterator[tuple[Key, Attempted]]:
         """Do tasks; give the key of each with how it ended, as they end.
 
+        `wait` is never called; it is there as `Pool` has it.
+
         Raises `ConnectionError` if the scheduler is lost.
         """
         from distributed import as_completed

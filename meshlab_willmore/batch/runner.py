@@ -130,8 +130,9 @@ def run(
     progress : callable, optional
         Called with the fraction of the meshes that are done (without those that `resume` leaves
         out) and a text with their names: after each result that was taken, twice a second while
-        workers are busy (not with `client`), and last with exactly 1. If it returns False, or
-        raises an exception, the batch ends as by Ctrl-C: `log` has all that was done.
+        workers are busy (not with `client`), and last with exactly 1, unless `stop` ends the
+        batch. If it returns False, or raises an exception, the batch ends as by Ctrl-C: `log` has
+        all that was done.
 
     Yields
     ------

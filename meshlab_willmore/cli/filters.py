@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..messages import WrongUse
+from ..messages import WrongUse, wrapped
 from .completion import filters
 from .errors import debug_option
 from .step_text import defaults, script_with
@@ -73,26 +72,15 @@ def _matches(known: FilterInfo, words: str) -> bool:
 
 def _explained(known: FilterInfo) -> str:
     lines = [known.name, f"  in MeshLab: {known.meshlab_name}"]
-    lines += _wrapped(known.summary)
+    lines += wrapped(known.summary, WIDTH, "  ")
     lines += ["", "Parameters: none"] if not known.params else ["", "Parameters:"]
     values = defaults(known)
     tooltips = _tooltips(known)
     for param in known.params:
         lines += _parameter(param, values)
-        lines += _wrapped(tooltips.get(param.keyword, ""), "      ")
+        lines += wrapped(tooltips.get(param.keyword, ""), WIDTH, "      ")
     lines += _returned(known)
     return "\n".join(lines)
-
-
-def _wrapped(text: str, indent: str = "  ") -> list[str]:
-    return textwrap.wrap(
-        text,
-        WIDTH,
-        initial_indent=indent,
-        subsequent_indent=indent,
-        break_long_words=False,
-        break_on_hyphens=False,
-    )
 
 
 def _parameter(param: ParamInfo, values: dict[str, Any]) -> list[str]:
@@ -128,5 +116,5 @@ def _returned(known: FilterInfo) -> Sequence[str]:
         return []
     lines = ["", "Returns:"]
     for name, kind, text in filter_.returns:
-        lines += [f"  {name} ({kind})", *_wrapped(text, "      ")]
+        lines += [f"  {name} ({kind})", *wrapped(text, WIDTH, "      ")]
     return lines

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 _INDENT = "  "
 # Attributes of an element that goes on in the next line.
 _HANGING = "         "
-# Values of parameters whose defaults PyMeshLab does not tell for a cube.
+# Values of parameters for which PyMeshLab has no default on a cube.
 _ANY = {"RichBool": False, "RichEnum": 0, "RichFloat": 0.0, "RichInt": 0, "RichDynamicFloat": 0.0}
 
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import inspect
-import textwrap
 
+from ..messages import wrapped
 from .filter import Filter
 from .parameters import Parameter
 
@@ -23,12 +23,7 @@ class Signature(inspect.Signature):
         if not parts:
             return super().__str__()
         # No line ends inside of a default.
-        lines = textwrap.wrap(
-            ", ".join(part.replace(" ", "\0") for part in parts),
-            WIDTH,
-            break_long_words=False,
-            break_on_hyphens=False,
-        )
+        lines = wrapped(", ".join(part.replace(" ", "\0") for part in parts), WIDTH)
         body = "".join(f"\n{_INDENT}{line}" for line in lines).replace("\0", " ")
         first = "self, /, *," if "self" in self.parameters else "*,"
         return f"({first}{body})"
@@ -47,29 +42,18 @@ def signature(filter_: Filter) -> Signature:
 
 def docstring(filter_: Filter) -> str:
     """The docstring of a filter's method, in numpydoc's form."""
-    lines = [*_wrapped(filter_.summary), "", f"MeshLab name: {filter_.meshlab_name!r}.", ""]
-    lines += _wrapped(filter_.info)
+    lines = [*wrapped(filter_.summary, WIDTH), "", f"MeshLab name: {filter_.meshlab_name!r}.", ""]
+    lines += wrapped(filter_.info, WIDTH)
     if filter_.parameters:
         lines += ["", "Parameters", "----------"]
     for parameter in filter_.parameters:
         lines += [f"{parameter.name} : {_type(parameter)}"]
-        lines += _wrapped(parameter.tooltip, _INDENT)
+        lines += wrapped(parameter.tooltip, WIDTH, _INDENT)
     if filter_.returns:
         lines += ["", "Returns", "-------", "dict"]
     for name, kind, text in filter_.returns:
-        lines += _wrapped(f"``{name}`` ({kind}): {text}", _INDENT)
+        lines += wrapped(f"``{name}`` ({kind}): {text}", WIDTH, _INDENT)
     return "\n".join(lines)
-
-
-def _wrapped(text: str, indent: str = "") -> list[str]:
-    return textwrap.wrap(
-        text,
-        WIDTH,
-        initial_indent=indent,
-        subsequent_indent=indent,
-        break_long_words=False,
-        break_on_hyphens=False,
-    )
 
 
 def _type(parameter: Parameter) -> str:

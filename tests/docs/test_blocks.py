@@ -10,13 +10,12 @@ from pathlib import Path
 
 import pytest
 
+from tests.extras import IS_CI
+
 from .pages import COMMAND, EXAMPLE, NOT_RUN, PRINTED, README, blocks, name_of, pages
 
 pytestmark = [pytest.mark.heavy, pytest.mark.slow]
 PAGES = [page for page in pages() if any(block.runs for block in blocks(page))]
-
-
-IN_CI = os.environ.get("CI") == "true"
 
 
 def missing(page):
@@ -57,7 +56,7 @@ def without_numbers(text):
 @pytest.mark.parametrize("page", PAGES, ids=name_of)
 def test_the_code_of_a_page_runs(page, checkout, monkeypatch):
     """All blocks in order, in one folder, Python in one process. README activates by itself."""
-    if not IN_CI and missing(page):
+    if not IS_CI and missing(page):
         pytest.skip(f"needs {', '.join(missing(page))}")
     monkeypatch.chdir(checkout)
     path = os.environ["PATH"]

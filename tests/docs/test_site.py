@@ -1,8 +1,6 @@
 """The site builds without a warning, from its sources alone, and has the package's own texts."""
 
 import html
-import importlib.util
-import os
 import re
 import shutil
 import subprocess
@@ -12,18 +10,11 @@ import pytest
 
 from meshlab_willmore.meshset.filters import FILTERS
 from meshlab_willmore.options import OPTIONS
+from tests.extras import needs
 
 from .pages import DOCS, GENERATED, ROOT, name_of, pages
 
-IN_CI = os.environ.get("CI") == "true"
-pytestmark = [
-    pytest.mark.heavy,
-    pytest.mark.slow,
-    pytest.mark.skipif(
-        not IN_CI and importlib.util.find_spec("sphinx") is None,
-        reason="Sphinx is missing: pip install '.[docs]'",
-    ),
-]
+pytestmark = [pytest.mark.heavy, pytest.mark.slow, needs("sphinx", "docs")]
 
 
 @pytest.fixture(scope="module")

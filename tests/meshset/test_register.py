@@ -1,4 +1,4 @@
-"""The filters stand among the native ones in everything that PyMeshLab lists and prints."""
+"""PyMeshLab lists and prints the filters as it does native ones."""
 
 import inspect
 import os

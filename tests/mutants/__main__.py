@@ -20,9 +20,9 @@ from pathlib import Path, PurePosixPath
 
 from meshlab_willmore.mesh.kernel_cache import SOURCES
 
-from . import core, outside, pages
+from . import core, outside, pages, projects
 
-FAULTS = [*core.FAULTS, *outside.FAULTS, *pages.FAULTS]
+FAULTS = [*core.FAULTS, *outside.FAULTS, *pages.FAULTS, *projects.FAULTS]
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = "meshlab_willmore"
 NEEDED = (PACKAGE, "tests", "studies", "filter_scripts", "docs")

@@ -1,7 +1,6 @@
 """Pages in a browser: Debian's Chromium, without a window and without a network."""
 
 import io
-import os
 import shutil
 from contextlib import contextmanager
 from typing import NamedTuple
@@ -12,6 +11,7 @@ import pytest
 from meshlab_willmore import optimize_flips
 from meshlab_willmore.report import page
 from tests import meshes
+from tests.extras import IS_CI
 
 FLAGS = [
     "--no-sandbox",
@@ -29,7 +29,7 @@ SECONDS = 60
 
 def unless_missing(reason):
     """Skip a test for lack of a tool; where changes are checked, that is a failure."""
-    if os.environ.get("CI"):
+    if IS_CI:
         pytest.fail(reason)
     pytest.skip(reason)
 

@@ -51,8 +51,8 @@ SearchName = Literal["parallel greedy", "greedy", "variable depth", "annealing",
 VirtualPoint = Literal["midpoint", "closest"] | float
 
 
-class PassOptions(TypedDict, total=False):
-    """The options that a pass in a list of passes can have, as `optimize_flips` explains them."""
+class CommonOptions(TypedDict, total=False):
+    """The options of one pass or of several; `meshlab_willmore.optimize_flips` explains them."""
 
     energy: EnergyName
     search: SearchName
@@ -67,31 +67,23 @@ class PassOptions(TypedDict, total=False):
     maxdeviation: float | None
     checkintersections: bool
     maxflips: int | None
+
+
+class PassOptions(CommonOptions, total=False):
+    """The options that a pass in a list of passes can have."""
+
     atfolds: bool
 
 
-class FlipOptions(TypedDict, total=False):
+class FlipOptions(CommonOptions, total=False):
     """The options of `meshlab_willmore.optimize_flips`, which explains them."""
 
     preset: PresetName
     passes: Sequence[PassOptions] | None
-    energy: EnergyName
-    search: SearchName
-    depth: int
-    breadth: int
-    sweeps: int
-    seed: int
-    virtualpoint: VirtualPoint
-    monotone: bool
-    foldangle: float
-    minshape: float
-    maxdeviation: float | None
-    checkintersections: bool
     featuredeg: float
     selected_faces: ArrayLike | None
     locked_edges: ArrayLike | None
     wedge_uv: ArrayLike | None
-    maxflips: int | None
     progress: Listen | None
 
 

@@ -14,12 +14,19 @@ def test_each_input_is_in_one_share_whatever_others_there_are():
     sizes = [sum(shard.has(name) for name in names) for shard in shards]
     assert min(sizes) > 40
     # Not by Python's hash, which differs from process to process.
-    assert [Shard(3, 32).has(f"scans/{number}.ply") for number in (19, 20, 21, 22)] == [
+    assert [Shard(3, 32).has(f"scans/{number}.ply") for number in (31, 32, 33, 69)] == [
         False,
         True,
         False,
         True,
     ]
+
+
+def test_shares_of_numbered_names_are_about_as_large():
+    names = [f"{number}.ply" for number in range(320)]
+    sizes = [sum(Shard(number, 32).has(name) for name in names) for number in range(1, 33)]
+    assert min(sizes) > 2
+    assert max(sizes) < 20
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from .conftest import FLIP, TAUBIN, call, cube_file, listing, same_mesh, script_
 
 def test_records_resume_shards_and_summary():
     """One test for all that needs workers anyway."""
-    # Both shares have good ones: "four" and "bad" are the first.
+    # Both shares have good ones: "three" and "bad" are the first.
     for name in ("one", "three", "four"):
         cube_file(f"{name}.ply")
     Path("bad.ply").write_text("no mesh")

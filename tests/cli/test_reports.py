@@ -127,10 +127,10 @@ def test_a_mesh_that_is_named_twice_has_two_lines_rows_and_pages(cube):
 
 
 def test_each_share_has_a_table_of_its_own():
-    # The first share has "four.ply", the second "one.ply".
-    for name in ("four", "one"):
+    # The first share has "three.ply", the second "one.ply".
+    for name in ("three", "one"):
         cube_file(f"{name}.ply")
-    words = ["flip", "four.ply", "one.ply", "{name}.off", "--json", "log.jsonl", "--resume"]
+    words = ["flip", "three.ply", "one.ply", "{name}.off", "--json", "log.jsonl", "--resume"]
     refused = call(*words, "--shard", "1/2", "--report", "all.html")
     assert refused.exit_code == 2
     assert refused.stderr == (
@@ -138,14 +138,14 @@ def test_each_share_has_a_table_of_its_own():
         "others; write the share's number into the name, such as 'all-{shard}.html'\n"
     )
     with pytest.raises(WrongUse, match=r"all\.html would be the table of each share"):
-        next(batch.run(script_file(FLIP), ["four.ply", "one.ply"], shard="1/2", report="all.html"))
-    assert listing(".") == ["four.ply", "one.ply", "script.mlx"]
+        next(batch.run(script_file(FLIP), ["three.ply", "one.ply"], shard="1/2", report="all.html"))
+    assert listing(".") == ["one.ply", "script.mlx", "three.ply"]
     for share in ("1/2", "2/2"):
         report = ["--report", "all-{shard}.html", "--report", "{name}-{shard}.html"]
         assert call(*words, "--shard", share, *report).exit_code == 0
     rows = [Table(f"all-{number}.html").rows[1].split("|")[1] for number in (1, 2)]
-    assert rows == ["four.ply", "one.ply"]
-    assert {"four-1.html", "one-2.html"} <= set(listing("."))
+    assert rows == ["three.ply", "one.ply"]
+    assert {"three-1.html", "one-2.html"} <= set(listing("."))
     # Of all shares at once.
     assert call(*words, "--report", "all.html").exit_code == 0
     assert len(Table("all.html").rows) == 3

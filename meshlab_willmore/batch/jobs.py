@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from ..files import writable_folder
+from ..files import is_stream, writable_folder
 from ..mesh_files.paths import (
     Input,
     NoMatchError,
@@ -43,7 +43,8 @@ class Job(NamedTuple):
         """All files that are read or written, as far as their names are known."""
         outputs = [output.path for output in self.outputs]
         materials = (path.with_name(f"{path.name}.mtl") for path in outputs)
-        return (*self.sources, *outputs, *materials)
+        pages = [] if self.page is None else [self.page]
+        return (*self.sources, *outputs, *materials, *pages)
 
     @property
     def is_in_place(self) -> bool:
@@ -191,6 +192,28 @@ def _check_distinct(jobs: Sequence[Job], inputs: Iterable[Path]) -> None:
             if (project := projects.get(_project_key(path))) is not None:
                 raise WrongUse(f"{path} may become a layer of {project[1]}; use another name")
             writers[key] = job
+
+
+def check_apart(own: Mapping[str, Path | None], jobs: Iterable[Job]) -> None:
+    """Raise `WrongUse` if files of the batch itself have the name of another file of the run.
+
+    Parameters
+    ----------
+    own : mapping of str to Path or None
+        These files by what they are, such as "the table".
+    """
+    uses: dict[str, str] = {}
+    for job in jobs:
+        pages = [] if job.page is None else [job.page]
+        uses |= {_identity(path): f"the input {path}" for path in job.inputs}
+        uses |= {_identity(output.path): f"the output of {job.name}" for output in job.outputs}
+        uses |= {_identity(path): f"the page of {job.name}" for path in pages}
+    for what, path in own.items():
+        if path is None or is_stream(path):
+            continue
+        use = uses.setdefault(_identity(path), what)
+        if use != what:
+            raise WrongUse(f"{path} would be both {what} and {use}; use another name for one")
 
 
 def _project_key(file: Path) -> str:

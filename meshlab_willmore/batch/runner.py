@@ -25,7 +25,7 @@ from ..numba_settings import check_variables
 from ..progress import Listen, Listener
 from . import records
 from .cluster import Cluster
-from .jobs import Job, plan
+from .jobs import Job, check_apart, plan
 from .pages import write_table
 from .pool import RENEWED_AFTER, STARTING, Attempted, Pool, PoolSettings, remove_stale
 from .process import CRASH, DONE, ERROR, MEMORY, TIMEOUT, Ended, Phase, Task
@@ -187,6 +187,7 @@ def run(
         client=client,
         renewed_after=renewed_after,
     )
+    check_apart({"the table of the report": table, "the log": options.log}, jobs)
     shown: list[Result] = []
     with ExitStack() as stack:
         batch = stack.enter_context(closing(Batch(recipe, jobs, options)))

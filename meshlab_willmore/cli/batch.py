@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..batch.jobs import Job, plan
+from ..batch.jobs import Job, check_apart, plan
 from ..batch.shards import shard_of
 from ..batch.steplog import log
 from ..batch.summary import Summary, duration, failure
@@ -148,12 +148,24 @@ def planned(
     reports = check_reports(len(inputs) > 1 and not layers, force or is_resumed(), shard)
     if reports != Reports() and not inputs:
         raise WrongUse("--report shows a mesh before and after, and there is no input")
-    return plan(inputs, outputs, layers, force or is_resumed(), shard, reports.page, not dry_run)
+    jobs = plan(inputs, outputs, layers, force or is_resumed(), shard, reports.page, not dry_run)
+    check_apart(files_of_batch(), jobs)
+    return jobs
+
+
+def files_of_batch() -> dict[str, Path | None]:
+    """The files of the batch itself, by what they are; the standard output is none."""
+    records = given_options().get("log")
+    return {
+        "the table of --report": chosen_reports().table,
+        "the records of --json": None if records == STANDARD_OUTPUT else records,
+    }
 
 
 def is_batch(jobs: Sequence[object]) -> bool:
-    """Whether worker processes are used: for several inputs, or with an option of a batch."""
-    return len(jobs) > 1 or bool(given_options().keys() - {"stop"})
+    """Whether worker processes are used: for several inputs, or what only a batch has."""
+    is_one = len(jobs) == 1 and chosen_reports().table is None
+    return not is_one or bool(given_options().keys() - {"stop"})
 
 
 def run_batch(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import re
 import threading
 from collections.abc import Callable, Sequence
@@ -200,14 +201,21 @@ def _rows(given: dict[str, Any], peers: bool) -> list[Row]:
 
 
 def _pages_of(reports: Reports, source: Path, rows: Sequence[Row], force: bool) -> list[Pages]:
-    """The pages of the rows; raises `WrongUse` if one can't be written."""
+    """The pages of the rows; raises `WrongUse` if one can't be written, or has another's name."""
     found = []
+    uses = {} if reports.table is None else {os.path.realpath(reports.table): "the table"}
     for number, row in enumerate(rows):
         page = None
         if reports.page is not None and row.filter:
             name = re.sub(r"\W+", "-", row.name).strip("-")
             page = reports.page.of(source.with_name(name + source.suffix), number).path
             check_place(page, force, "{name}.html")
+            use = uses.setdefault(os.path.realpath(page), f"the page of {row.name}")
+            if use != f"the page of {row.name}":
+                raise WrongUse(
+                    f"{page} would be both {use} and the page of {row.name}; use another name, "
+                    "with {name} for pages"
+                )
         found.append(Pages(page, reports.table is not None))
     return found
 

@@ -44,13 +44,16 @@ report_option = click.option(
 def check_reports(is_several: bool, force: bool, shard: Shard | None = None) -> Reports:
     """The pages that were asked for, which `chosen_reports` returns from now on.
 
-    With `is_several` there may be several meshes. Raises `WrongUse` if a name can't be that of a
-    page, or exists and `force` is false, or is that of the tables of all shares; a name with a
-    placeholder is checked when that is filled in.
+    With `is_several` there may be several meshes: then a name without a placeholder is that of
+    their table, as it always is beside one with a placeholder. Raises `WrongUse` if a name can't be
+    that of a page, or exists and `force` is false, or is that of the tables of all shares; a name
+    with a placeholder is checked when that is filled in.
     """
     meta = click.get_current_context().meta
     page, table = None, None
-    for name in meta.get(_NAMES, ()):
+    names = meta.get(_NAMES, ())
+    is_several = is_several or len(names) > 1
+    for name in names:
         if not name.lower().endswith(_ENDINGS):
             raise WrongUse(f"--report {name}: a page needs a name such as report.html")
         output = Output(name if shard is None else shard.in_name(name))

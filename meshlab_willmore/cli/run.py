@@ -15,12 +15,20 @@ import click
 from ..batch import steplog
 from ..batch.jobs import Job
 from ..batch.steplog import log
+from ..files import is_stream
 from ..mesh_files.paths import PLACEHOLDERS, Output, find_inputs
 from ..messages import WrongUse, counted, notes_kept, one_line
 from ..signals import killable
 from . import progress, runlog
 from .arguments import LAYER_HELP, force_option, form_options, mask_option, take_outputs
-from .batch import batch_options, is_batch, json_file_option, planned, run_batch
+from .batch import (
+    batch_options,
+    files_of_batch,
+    is_batch,
+    json_file_option,
+    planned,
+    run_batch,
+)
 from .completion import files, scripts
 from .errors import debug_option, verbose_option
 from .reports import report_option
@@ -231,8 +239,9 @@ def command(
     options = RunOptions(name, steps, force, dry_run, set())
     outputs = [output._replace(is_text=as_text, is_single=single) for output in outputs]
     jobs = planned(find_inputs(inputs, takes_projects=True), outputs, layers, force, dry_run)
-    read = [Path(name)] if source else []
-    runlog.check(log_file, [*read, *(file for job in jobs for file in job.files)])
+    used = [Path(name)] if source else []
+    used += [file for file in files_of_batch().values() if file and not is_stream(file)]
+    runlog.check(log_file, [*used, *(file for job in jobs for file in job.files)])
     with runlog.opened(None if dry_run else log_file, name):
         _run_all(options, jobs)
 

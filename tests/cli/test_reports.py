@@ -175,7 +175,11 @@ def test_everything_in_a_table_is_escaped():
         (["--report", "no/page.html"], "the folder no does not exist"),
         (["--report", "mine.html"], "mine.html already exists; use --force to overwrite"),
         (["--report", "."], "--report .: a page needs a name"),
-        (["--report", "a.html", "--report", "b.html"], "the page of a mesh has a name already"),
+        (
+            ["--report", "a.html", "--report", "b.html"],
+            "the table of all meshes has a name already",
+        ),
+        (["--report", "{name}.html", "--report", "x{name}.html"], "the page of a mesh has a name"),
         (["--report", "{nam}.html"], "{nam} in '{nam}.html' is no placeholder"),
     ],
 )
@@ -192,6 +196,56 @@ def test_pages_of_one_name_are_refused(cube):
     result = call("flip", cube, "two.ply", "{name}.off", "--report", "x{{}}{ext}.html")
     assert result.exit_code == 2
     assert "would both be written to x{}ply.html; use {name} or {index}" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("words", "line"),
+    [
+        (["--report", "cube.html", "--report", "{name}.html"],
+         "cube.html would be both the table of --report and the page of cube.ply"),
+        (["--report", "no/../t.html", "--report", "{name}.html", "--json", "./t.html"],
+         "t.html would be both the records of --json and the table of --report"),
+        (["--json", "out-cube.ply"],
+         "out-cube.ply would be both the records of --json and the output of cube.ply"),
+        (["--json", "cube.ply", "--force"],
+         "cube.ply would be both the records of --json and the input cube.ply"),
+        (["--log", "all.html", "--report", "all.html", "--report", "{name}.html"],
+         "--log all.html: the log would be written into all.html"),
+        (["--log", "cube.html", "--report", "{name}.html"],
+         "--log cube.html: the log would be written into cube.html"),
+        (["--log", "r.jsonl", "--json", "r.jsonl"],
+         "--log r.jsonl: the log would be written into r.jsonl"),
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("is_batch", [False, True])
+def test_no_file_of_a_run_replaces_another(cube, words, line, is_batch):
+    Path("no").mkdir()
+    if is_batch:
+        cube_file("two.ply")
+    before = {path: path.read_bytes() for path in Path().glob("*.*")}
+    meshes = [cube, "two.ply"] if is_batch else [cube]
+    result = call("run", "-i", *meshes, "-o", "out-{name}.ply", *words)
+    assert result.exit_code == 2
+    assert line in result.stderr
+    assert {path: path.read_bytes() for path in Path().glob("*.*")} == before
+
+
+def test_table_from_python_does_not_replace_the_log(cube):
+    with pytest.raises(WrongUse, match=r"t\.html would be both the log and the table"):
+        next(batch.run(script_file(FLIP), cube, report="t.html", log="t.html"))
+    assert not Path("t.html").exists()
+
+
+def test_table_and_page_of_the_only_match(cube):
+    report = ["--report", "all.html", "--report", "{name}.html"]
+    result = call("flip", "c*.ply", "x_{name}.off", *report)
+    assert (result.exit_code, result.stderr) == (0, "")
+    table = Table("all.html")
+    assert [row.split("|")[1] for row in table.rows] == ["Name", "cube.ply"]
+    assert table.links == ["cube.html"]
+    # Without a pattern for pages it is the page of the mesh, as with one name.
+    assert call("flip", "c*.ply", "y_{name}.off", "--report", "one.html").exit_code == 0
+    assert "<h1>cube.ply</h1>" in Path("one.html").read_text()
 
 
 def test_page_may_be_replaced_with_force(cube):
@@ -232,6 +286,21 @@ def test_comparison_has_a_table_and_pages(cube):
     again = call(*words, "--report", "rows.html")
     assert again.exit_code == 2
     assert "rows.html already exists" in again.stderr
+
+
+@pytest.mark.parametrize(
+    ("names", "use"),
+    [
+        (["preset-faithful.html", "{name}.html"], "the table and the page of preset faithful"),
+        (["x{ext}.html"], "the page of preset faithful and the page of preset shape"),
+    ],
+)
+def test_pages_of_a_comparison_do_not_replace_each_other(cube, names, use):
+    words = ["compare", cube, "--preset", "faithful", "--preset", "shape", "--no-peers"]
+    result = call(*words, *(word for name in names for word in ("--report", name)))
+    assert result.exit_code == 2
+    assert f"would be both {use}" in result.stderr
+    assert listing(".") == ["cube.ply"]
 
 
 def test_batch_from_python_has_them_too():

@@ -20,6 +20,10 @@ from ..mesh_files.projects import check_layers, files_of, project_of
 from ..messages import WrongUse
 from .shards import Shard
 
+# What report pages have among their first bytes.
+_GENERATOR = b'<meta name="generator" content="meshlab_willmore '
+_ENOUGH = 2048
+
 
 class Job(NamedTuple):
     """One run of the script on its input, or on several as layers; why it can't be read.
@@ -66,13 +70,16 @@ def plan(
     shard: Shard | None = None,
     page: Output | None = None,
     makes_folders: bool = True,
+    is_continued: bool = False,
 ) -> list[Job]:
     """Divide inputs and outputs into jobs, and check every output as `check_output` does.
 
     Folders with a placeholder in their name are made, if that is wanted. An input that can't be
     read has a job without outputs; the others go on. Only the jobs of the shard are returned, and
     only their files checked: those of other shards may have been written already. Each job has a
-    report page if one is given. Raises `WrongUse` if inputs and outputs don't fit together.
+    report page if one is given. Where an earlier batch goes on (`is_continued`), its outputs and
+    report pages may exist, but no other file may have the name of a page. Raises `WrongUse` if
+    inputs and outputs don't fit together.
     """
     planned = list(_jobs(inputs, outputs, layers, page))
     _check_distinct(planned, [path for path, _ in inputs] if len(planned) > 1 else ())
@@ -80,16 +87,30 @@ def plan(
     for job in jobs:
         for output, pattern in zip(job.outputs, outputs, strict=False):
             if _has_folder(job, output.path, pattern, makes_folders):
-                check_output(output.path, force)
-                if output.is_project and not force:
+                check_output(output.path, force or is_continued)
+                if output.is_project and not (force or is_continued):
                     check_layers(output.path)
             else:
                 check_format(output.path)
         if page is None or job.page is None:
             continue
         if _has_folder(job, job.page, page, makes_folders):
-            check_place(job.page, force, "{name}.html")
+            check_page(job.page, force, is_continued, "{name}.html")
     return jobs
+
+
+def check_page(path: Path, force: bool, is_continued: bool, example: str = "report.html") -> None:
+    """Raise `WrongUse` as `check_place`; a batch that goes on may replace report pages only."""
+    check_place(path, force or (is_continued and _is_page(path)), example)
+
+
+def _is_page(path: Path) -> bool:
+    """Whether a file is a report page of this package."""
+    try:
+        with path.open("rb") as file:
+            return _GENERATOR in file.read(_ENOUGH)
+    except OSError:
+        return False
 
 
 def _has_folder(job: Job, path: Path, pattern: Output, makes_folders: bool) -> bool:

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from .. import memory
 from ..files import place_of
 from ..machine import MachineError, MachineWarning, core_count
-from ..mesh_files.paths import Output, check_output, check_place, find_inputs
+from ..mesh_files.paths import Output, check_output, find_inputs
 from ..mesh_files.projects import check_layers
 from ..messages import WrongUse, one_line
 from ..mlx.steps import Step
@@ -25,7 +25,7 @@ from ..numba_settings import check_variables
 from ..progress import Listen, Listener
 from . import records
 from .cluster import Cluster
-from .jobs import Job, check_apart, plan
+from .jobs import Job, check_apart, check_page, plan
 from .pages import write_table
 from .pool import RENEWED_AFTER, STARTING, Attempted, Pool, PoolSettings, remove_stale
 from .process import CRASH, DONE, ERROR, MEMORY, TIMEOUT, Ended, Phase, Task
@@ -167,12 +167,13 @@ def run(
         find_inputs([os.fspath(name) for name in names], takes_projects=True),
         outputs,
         False,
-        force or is_continued,
+        force,
         share,
         page if table is None else None,
+        is_continued=is_continued,
     )
     if table is not None:
-        check_place(table, force or is_continued, "report.html")
+        check_page(table, force, is_continued)
         recipe = recipe._replace(is_pictured=True)
     options = BatchOptions(
         workers=workers,

@@ -145,10 +145,12 @@ def planned(
     """The jobs of a command, or those of its shard; see `meshlab_willmore.batch.jobs.plan`."""
     given = given_options()
     shard = shard_of(given["shard"]) if "shard" in given else None
-    reports = check_reports(len(inputs) > 1 and not layers, force or is_resumed(), shard)
+    reports = check_reports(len(inputs) > 1 and not layers, force, shard, is_resumed())
     if reports != Reports() and not inputs:
         raise WrongUse("--report shows a mesh before and after, and there is no input")
-    jobs = plan(inputs, outputs, layers, force or is_resumed(), shard, reports.page, not dry_run)
+    jobs = plan(
+        inputs, outputs, layers, force, shard, reports.page, not dry_run, is_continued=is_resumed()
+    )
     check_apart(files_of_batch(), jobs)
     return jobs
 

@@ -8,8 +8,9 @@ from typing import NamedTuple
 
 import click
 
+from ..batch.jobs import check_page
 from ..batch.shards import Shard
-from ..mesh_files.paths import Output, check_place
+from ..mesh_files.paths import Output
 from ..messages import WrongUse
 
 # Where click keeps the names that were given, and the pages that these are for.
@@ -41,13 +42,16 @@ report_option = click.option(
 )
 
 
-def check_reports(is_several: bool, force: bool, shard: Shard | None = None) -> Reports:
+def check_reports(
+    is_several: bool, force: bool, shard: Shard | None = None, is_continued: bool = False
+) -> Reports:
     """The pages that were asked for, which `chosen_reports` returns from now on.
 
     With `is_several` there may be several meshes: then a name without a placeholder is that of
     their table, as it always is beside one with a placeholder. Raises `WrongUse` if a name can't be
-    that of a page, or exists and `force` is false, or is that of the tables of all shares; a name
-    with a placeholder is checked when that is filled in.
+    that of a page, or exists and `force` is false (unless it is a report page, and an earlier batch
+    goes on, `is_continued`), or is that of the tables of all shares; a name with a
+    placeholder is checked when that is filled in.
     """
     meta = click.get_current_context().meta
     page, table = None, None
@@ -64,7 +68,7 @@ def check_reports(is_several: bool, force: bool, shard: Shard | None = None) -> 
         if is_table:
             if shard is not None:
                 shard.check_table(name)
-            check_place(output.path, force, "report.html")
+            check_page(output.path, force, is_continued)
             table = output.path
         else:
             page = output

@@ -114,6 +114,25 @@ def test_batch_has_a_table_and_pages(monkeypatch):
     assert table.links == ["pages/one.html", "pages/two.html"]
 
 
+@pytest.mark.parametrize("option", ["--resume", "--retry-failed"])
+@pytest.mark.parametrize("name", ["mine.html", "{name}.html"])
+def test_batch_that_goes_on_replaces_no_page_of_others(cube, option, name):
+    two = cube_file("two.ply")
+    file = Path(name.format(name="two"))
+    file.write_text("<html>mine, not by meshlab_willmore</html>")
+    words = ["flip", cube, two, "{name}.off", "--json", "r.jsonl", option, "--report", name]
+    result = call(*words)
+    assert result.exit_code == 2
+    assert f"{file} already exists; use --force to overwrite" in result.stderr
+    given = {"script": script_file(FLIP), "inputs": [cube, two], "log": "r.jsonl", "report": name}
+    with pytest.raises(WrongUse, match=f"{file} already exists"):
+        next(batch.run(**given, **{option.strip("-").replace("-", "_"): True}))
+    assert file.read_text().startswith("<html>mine")
+    assert call(*words, "--force").exit_code == 0
+    assert call(*words).exit_code == 0
+    assert "<title>" in file.read_text()
+
+
 def test_a_mesh_that_is_named_twice_has_two_lines_rows_and_pages(cube):
     words = ["flip", cube, cube, "flipped_{index}.off", "--workers", 1]
     report = ["--report", "all.html", "--report", "page_{index}.html"]

@@ -226,7 +226,6 @@ def check_apart(own: Mapping[str, Path | None], jobs: Iterable[Job]) -> None:
     uses: dict[str, str] = {}
     for job in jobs:
         pages = [] if job.page is None else [job.page]
-        uses |= {_identity(path): f"the input {path}" for path in job.inputs}
         uses |= {_identity(output.path): f"the output of {job.name}" for output in job.outputs}
         uses |= {_identity(path): f"the page of {job.name}" for path in pages}
     for what, path in own.items():

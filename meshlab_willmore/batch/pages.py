@@ -27,10 +27,10 @@ if TYPE_CHECKING:
 # A picture is drawn of so many faces at most.
 MOST_FACES = 1_000_000
 
-COLUMNS = ("Faces", "Flips", "W before", "W after", "W %", "Seconds", "MiB")
+COLUMNS = ("Faces", "Flips made", "W before", "W after", "W %", "Seconds", "MiB")
 LEGEND = (
-    "W: Willmore energy, 0 on spheres and planes. Flips: of all steps. MiB: the most memory of the "
-    "worker."
+    "W: Willmore energy, 0 on spheres and planes. Flips made: by all steps; an edge can be flipped "
+    "several times. MiB: the most memory of the worker."
 )
 HINT = "With --report 'pages/{name}.html' each mesh gets a page of its own, in 3D."
 
@@ -121,7 +121,7 @@ def _listed(values: Mapping[str, Any]) -> str:
 
 
 def _text(value: Any) -> str:
-    return f"{value:.6g}" if type(value) is float else steplog.in_line(value)
+    return f"{value + 0.0:.6g}" if type(value) is float else steplog.in_line(value)
 
 
 def write_table(path: Path, source: str, jobs: Sequence[Job], results: Iterable[Result]) -> None:
@@ -146,10 +146,12 @@ def write_table(path: Path, source: str, jobs: Sequence[Job], results: Iterable[
 
 
 def _entry(result: Result, path: Path, page: Path | None) -> Entry:
+    from ..report.rows import meaningful
     from ..report.table import Entry, link, percent
 
     before, after = result.before or {}, result.after or {}
     energies = [found.get("willmore_energy") for found in (before, after)]
+    energies = [None if energy is None else meaningful(energy) for energy in energies]
     flips = [one.returned["flips"] for one in result.returned if "flips" in one.returned]
     says_all = result.status in (ERROR, BAD_FILE)
     failure = result.reason if says_all else f"{result.step}: {result.reason}"
@@ -162,7 +164,7 @@ def _entry(result: Result, path: Path, page: Path | None) -> Entry:
         link(path, page),
         {
             "Faces": after.get("faces", before.get("faces")),
-            "Flips": sum(flips) if flips else None,
+            "Flips made": sum(flips) if flips else None,
             "W before": energies[0],
             "W after": energies[1],
             "W %": percent(*energies),

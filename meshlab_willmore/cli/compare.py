@@ -81,7 +81,7 @@ LEGEND = (
     "|K|: absolute Gaussian curvature.\n"
     "M: absolute mean curvature, the sum of angle times length.\n"
     "worst, mean: shape of the triangles, 1: equilateral; 1 % are below worst.\n"
-    "cuts: faces that cut another.\n"
+    "cuts: faces that cut another, as MeshLab's filter counts them.\n"
     "seconds: the filter alone, compiled and loaded before."
 )
 REFERENCE_LEGEND = (

@@ -133,7 +133,12 @@ def compute(task: Computation, say: Callable[[Any], None]) -> Computed:
         from ..report import page
 
         title = f"{Path(task.comparison.source).name}, {task.name}"
-        settings = {"Filter": task.filter, **task.given}
+        settings = {
+            "Filter": task.filter,
+            **task.given,
+            "Cuts, as in the table of compare": f"{quality['self_intersecting']} after, counted by "
+            "MeshLab's filter for faces that intersect others",
+        }
         page(before, after, task.pages.page, title=title, settings=settings, seconds=seconds)
     return Computed(seconds, quality, picture(after) if task.pages.is_pictured else b"")
 

@@ -142,7 +142,8 @@ def document(
     grid = grid_of(*shown)
     seen = after if len(after.faces) else before
     view = thumbnail.view_of(seen.vertices, seen.faces)
-    groups = places.groups(before, after, is_same)
+    is_flipped = is_same and len(before.faces) == len(after.faces)
+    groups = places.groups(before, after, is_flipped)
     head, meshes = packed(*shown, grid)
     head |= {
         "view": view.tolist(),
@@ -161,6 +162,7 @@ def document(
         alternative=escape(_alternative(found, title)),
         legends=part("legends.html"),
         simplified="" if is_whole else _of_fewer(most, len(shown[1].faces)),
+        places_help="Click on one to fly there." if groups else "There are none.",
         places=_places(groups),
         rows=rows.table_rows(found),
         histograms=histograms.figures(before, after),
@@ -261,11 +263,11 @@ def _tiles(found: Sequence[rows.Row], seconds: float | None) -> str:
     by_name = {row.name: row for row in found}
     tiles = []
     for name in (
-        "Flipped edges",
+        "Edges that differ",
         "Willmore energy W",
         "Absolute mean curvature M",
         "Mean shape",
-        "Faces that cut others",
+        "Faces that cut or touch others",
     ):
         row = by_name.get(name)
         if row is not None:
@@ -333,7 +335,7 @@ def _places(groups: Sequence[places.Group]) -> str:
             )
             number += 1
         columns.append(f"<div><h3>{escape(group.title)}</h3><ol>{''.join(items)}</ol></div>")
-    return "".join(columns) or "<p>There are none.</p>"
+    return "".join(columns)
 
 
 def _settings(settings: Mapping[str, object], seconds: float | None) -> str:

@@ -21,6 +21,8 @@ from ..mesh.validate import check_mesh
 Array = NDArray[np.float64]
 Faces = NDArray[np.int32]
 
+# Energies, shapes and angles below this are rounding errors, whatever the size of the mesh.
+NOISE = 1e-9
 # The bits of the higher end in the number of an edge.
 _HIGH = (1 << EDGE_SHIFT) - 1
 
@@ -47,7 +49,7 @@ class Examined(NamedTuple):
     valences : (n,) int64
         How many edges end at each vertex.
     cuts : int
-        How many faces cut others.
+        How many faces cut or touch others, as `meshlab_willmore.measure.self_intersections`.
     totals : Measures
     """
 
@@ -107,16 +109,16 @@ def _dihedral_angles(vertices: Array, faces: Faces, corners: Array) -> Array:
     twin = build(vertices, faces).twin
     angles = np.full(len(twin), np.nan)
     inner = np.flatnonzero(twin >= 0)
-    angles[inner] = _between(normals[inner // 3], normals[twin[inner] // 3])
+    angles[inner] = between(normals[inner // 3], normals[twin[inner] // 3])
     return angles.reshape(-1, 3)
 
 
 def _angles(corners: Array) -> Array:
     ahead, back = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
-    return _between(_unit(ahead.reshape(-1, 3)), _unit(back.reshape(-1, 3))).reshape(-1, 3)
+    return between(_unit(ahead.reshape(-1, 3)), _unit(back.reshape(-1, 3))).reshape(-1, 3)
 
 
-def _between(left: Array, right: Array) -> Array:
+def between(left: Array, right: Array) -> Array:
     """The angles in degrees between unit vectors, accurate for small ones too."""
     halves = np.arctan2(np.linalg.norm(left - right, axis=1), np.linalg.norm(left + right, axis=1))
     degrees: Array = np.degrees(2.0 * halves)

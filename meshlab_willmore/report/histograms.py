@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .examine import Examined
+from .examine import NOISE, Examined
 
 Array = NDArray[np.float64]
 
@@ -46,7 +46,7 @@ class Kind(NamedTuple):
 
 
 def _log_energies(mesh: Examined) -> Array:
-    energies = mesh.energy[mesh.energy > 0.0]
+    energies = mesh.energy[mesh.energy > NOISE]
     logs: Array = np.log10(energies)
     return logs
 
@@ -139,6 +139,8 @@ def _median(kind: Kind, values: Array) -> str:
     if not len(values):
         return "none"
     median = float(np.median(values))
+    if kind.values is not _log_energies and median < NOISE:
+        median = 0.0
     return f"{10**median:.3g}" if kind.values is _log_energies else f"{median:.3g}{kind.unit}"
 
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .examine import Examined
+from .examine import NOISE, Examined
 
 Array = NDArray[np.float64]
 
@@ -58,7 +58,7 @@ def groups(before: Examined, after: Examined, is_same: bool) -> list[Group]:
     Parameters
     ----------
     is_same : bool
-        Whether both have the same vertices.
+        Whether both have the same vertices, and as many faces.
     """
     found = [
         Group("Highest Willmore energy", tuple(_energies(before, after, is_same))),
@@ -72,16 +72,25 @@ def groups(before: Examined, after: Examined, is_same: bool) -> list[Group]:
 
 def _energies(before: Examined, after: Examined, is_same: bool) -> Iterator[Place]:
     for v in _worst(after, after.energy, after.vertices):
-        if after.energy[v] > 0.0:
-            was = f"was {before.energy[v]:.3g}" if is_same else ""
+        if after.energy[v] > NOISE:
+            was = _was(before, v) if is_same else ""
             yield _at_vertex(after, v, f"W {after.energy[v]:.3g}", was)
 
 
 def _improved(before: Examined, after: Examined) -> Iterator[Place]:
     drop = before.energy - after.energy
     for v in _worst(after, drop, after.vertices):
-        if drop[v] > 0.0:
-            yield _at_vertex(after, v, f"W {after.energy[v]:.3g}", f"was {before.energy[v]:.3g}")
+        if drop[v] > NOISE:
+            energy = _without_noise(after.energy[v])
+            yield _at_vertex(after, v, f"W {energy:.3g}", _was(before, v))
+
+
+def _was(before: Examined, v: int) -> str:
+    return f"was {_without_noise(before.energy[v]):.3g}"
+
+
+def _without_noise(energy: float) -> float:
+    return energy if energy > NOISE else 0.0
 
 
 def _folds(mesh: Examined) -> Iterator[Place]:

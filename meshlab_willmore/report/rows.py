@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..results import FlipResult
-from .examine import Examined
+from .examine import NOISE, Examined, between
 
 WORST_SHARE = 0.01
 PERCENT = 100.0
@@ -46,7 +46,17 @@ class Row(NamedTuple):
 
 
 def rows(before: Examined, after: Examined, flips: int | None) -> list[Row]:
-    """Return all measures of two meshes, of which the second one has so many new edges."""
+    """Return all measures of two meshes, of which the second one has so many new edges.
+
+    `flips` is None if the vertices differ. Only of as many faces of the same vertices, as edge
+    flips leave them, it is said what is better.
+    """
+    is_judged = flips is not None and len(before.faces) == len(after.faces)
+    found = _rows(before, after, flips)
+    return found if is_judged else [row._replace(better=0) for row in found]
+
+
+def _rows(before: Examined, after: Examined, flips: int | None) -> list[Row]:
     one, two = before.totals, after.totals
     found = [
         Row("Vertices", "", len(before.vertices), len(after.vertices)),
@@ -55,8 +65,11 @@ def rows(before: Examined, after: Examined, flips: int | None) -> list[Row]:
     if flips is not None:
         edges = len(after.edges)
         share = f"{PERCENT * flips / max(edges, 1):.3g} % of {written(edges)}"
-        what = "Edges that the mesh before does not have."
-        found.append(Row("Flipped edges", what, None, flips, note=share))
+        what = (
+            "Edges that the mesh before does not have. The flips made may be more: an edge can be "
+            "flipped several times, and back."
+        )
+        found.append(Row("Edges that differ", what, None, flips, note=share))
         found.append(
             Row(
                 "Normal change",
@@ -71,23 +84,23 @@ def rows(before: Examined, after: Examined, flips: int | None) -> list[Row]:
         Row(
             "Willmore energy W",
             "Sum over the vertices; 0 on spheres and planes.",
-            one.willmore_energy,
-            two.willmore_energy,
+            meaningful(one.willmore_energy),
+            meaningful(two.willmore_energy),
             better=-1,
         ),
         Row("Area", "In squared units of the coordinates.", one.area, two.area),
         Row(
             "Absolute Gaussian curvature |K|",
             "Sum over the vertices of how far the angles are from 360°, in radians.",
-            one.absolute_gaussian_curvature,
-            two.absolute_gaussian_curvature,
+            meaningful(one.absolute_gaussian_curvature),
+            meaningful(two.absolute_gaussian_curvature),
             better=-1,
         ),
         Row(
             "Absolute mean curvature M",
             "Sum of dihedral angle times length over the edges.",
-            one.absolute_mean_curvature,
-            two.absolute_mean_curvature,
+            meaningful(one.absolute_mean_curvature, math.sqrt(one.area)),
+            meaningful(two.absolute_mean_curvature, math.sqrt(two.area)),
             better=-1,
         ),
         Row("Mean shape", "1 is equilateral.", _mean(before), _mean(after), better=1),
@@ -100,15 +113,27 @@ def rows(before: Examined, after: Examined, flips: int | None) -> list[Row]:
         ),
         Row("Smallest angle", "", _least(before), _least(after), "°", better=1),
         Row("Largest dihedral angle", "0° is flat.", _fold(before), _fold(after), "°", better=-1),
-        Row("Faces that cut others", "", before.cuts, after.cuts, better=-1),
+        Row(
+            "Faces that cut or touch others",
+            "Counted exactly: faces with a point in common beside their common vertices and edges. "
+            "MeshLab's filter rounds and leaves out neighbours, and may count fewer.",
+            before.cuts,
+            after.cuts,
+            better=-1,
+        ),
     ]
 
 
 def normal_change(before: Examined, after: Examined) -> float:
     """The mean angle in degrees between the normals of vertices before and after."""
     used = before.valences > 0
-    cosines = np.einsum("vx,vx->v", before.normals[used], after.normals[used])
-    return float(np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0))).mean()) if used.any() else 0.0
+    angles = between(before.normals[used], after.normals[used])
+    return meaningful(np.nanmean(angles)) if np.isfinite(angles).any() else 0.0
+
+
+def meaningful(value: float, scale: float = 1.0) -> float:
+    """The value, or 0 if rounding errors may be as large; `scale` is that of a mesh's lengths."""
+    return 0.0 if abs(value) < NOISE * scale else float(value)
 
 
 def _mean(mesh: Examined) -> float | None:
@@ -120,11 +145,11 @@ def _worst_shape(mesh: Examined) -> float | None:
 
 
 def _least(mesh: Examined) -> float | None:
-    return float(np.nanmin(mesh.angles)) if np.isfinite(mesh.angles).any() else None
+    return meaningful(np.nanmin(mesh.angles)) if np.isfinite(mesh.angles).any() else None
 
 
 def _fold(mesh: Examined) -> float | None:
-    return float(np.nanmax(mesh.dihedral)) if np.isfinite(mesh.dihedral).any() else None
+    return meaningful(np.nanmax(mesh.dihedral)) if np.isfinite(mesh.dihedral).any() else None
 
 
 # --- as HTML -------------------------------------------------------------------------------------
@@ -152,7 +177,7 @@ def change(row: Row) -> str:
     difference = row.after - row.before
     if not math.isfinite(difference):
         return ""
-    if difference == 0.0:
+    if abs(difference) <= NOISE * max(abs(row.before), abs(row.after)):
         return "same"
     sign = "+" if difference > 0.0 else MINUS
     if (row.before and not float(row.before).is_integer()) or abs(row.before) > PERCENT:
@@ -170,6 +195,8 @@ def written(value: Any, unit: str = "") -> str:
     """A number as people read it; a dash for None."""
     if value is None:
         return DASH
+    if value < 0.0:
+        return f"{MINUS}{written(-value, unit)}"
     if float(value).is_integer() and abs(value) < LARGE:
         return f"{int(value):,}{unit}"
     if not math.isfinite(value):

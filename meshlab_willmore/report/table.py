@@ -15,13 +15,15 @@ from urllib.parse import quote
 from .. import thumbnail
 from .._version import __version__
 from .document import assembled, part
-from .rows import DASH, PERCENT
+from .rows import DASH, MINUS, PERCENT
 
 # Of the pictures, in pixels: twice as many as on the page, for screens with fine ones.
 PICTURE = (224, 168)
 # Digits of numbers; from where on they are whole ones, and from where on they have an exponent.
 DIGITS = 4
 SHORT, LARGE = 1e3, 1e12
+# Of percent; more are rounding errors.
+_DECIMALS = 6
 # Attributes of heads: rows come sorted by their status.
 _ATTRIBUTES = {"Name": ' class="name"', "Status": ' aria-sort="ascending"'}
 
@@ -122,6 +124,8 @@ def _cell(value: float | None) -> str:
 
 def _short(value: float) -> str:
     """A number with at most so many digits that columns are narrow."""
+    if value < 0.0:
+        return f"{MINUS}{_short(-value)}"
     is_whole = float(value).is_integer() or SHORT <= abs(value) < LARGE
     return f"{round(value):,}" if is_whole else f"{value:.{DIGITS}g}"
 
@@ -137,4 +141,5 @@ def percent(before: float | None, after: float | None) -> float | None:
     """By how much a number changed, in percent; None if that is not known."""
     if before is None or after is None or not before:
         return None
-    return PERCENT * (after - before) / before
+    # Adding zero makes that of a tiny decrease 0, not -0.
+    return round(PERCENT * (after - before) / before, _DECIMALS) + 0.0

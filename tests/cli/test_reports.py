@@ -226,8 +226,6 @@ def test_pages_of_one_name_are_refused(cube):
          "t.html would be both the records of --json and the table of --report"),
         (["--json", "out-cube.ply"],
          "out-cube.ply would be both the records of --json and the output of cube.ply"),
-        (["--json", "cube.ply", "--force"],
-         "cube.ply would be both the records of --json and the input cube.ply"),
         (["--log", "all.html", "--report", "all.html", "--report", "{name}.html"],
          "--log all.html: the log would be written into all.html"),
         (["--log", "cube.html", "--report", "{name}.html"],
@@ -302,6 +300,8 @@ def test_comparison_has_a_table_and_pages(cube):
     assert [row.split("|")[1] for row in table.rows] == names
     assert table.links == ["preset-faithful.html", "preset-shape.html"]
     assert table.pictures == 3
+    page = Path("preset-shape.html").read_text()
+    assert "<dt>Cuts, as in the table of compare</dt><dd>0 after, counted by MeshLab" in page
     again = call(*words, "--report", "rows.html")
     assert again.exit_code == 2
     assert "rows.html already exists" in again.stderr

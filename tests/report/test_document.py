@@ -61,7 +61,7 @@ def test_page_says_what_changed(sphere, tmp_path):
     vertices, faces, result = sphere
     found = elements(tmp_path, (vertices, faces), result, seconds=12.5, settings={"depth": 7})
     text = "".join(found.text.split())
-    assert f"Flippededges{changed_edges(faces, result.faces)}" in text
+    assert f"Edgesthatdiffer{changed_edges(faces, result.faces)}" in text
     assert f"{result.willmore_before:,.2f}{result.willmore_after:,.2f}" in text
     assert "12.5s" in text
     assert "depth7" in text

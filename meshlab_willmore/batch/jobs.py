@@ -225,9 +225,9 @@ def check_apart(own: Mapping[str, Path | None], jobs: Iterable[Job]) -> None:
     """
     uses: dict[str, str] = {}
     for job in jobs:
-        pages = [] if job.page is None else [job.page]
         uses |= {_identity(output.path): f"the output of {job.name}" for output in job.outputs}
-        uses |= {_identity(path): f"the page of {job.name}" for path in pages}
+        if job.page is not None:
+            uses[_identity(job.page)] = f"the page of {job.name}"
     for what, path in own.items():
         if path is None or is_stream(path):
             continue

@@ -128,7 +128,7 @@ def normal_change(before: Examined, after: Examined) -> float:
     """The mean angle in degrees between the normals of vertices before and after."""
     used = before.valences > 0
     angles = between(before.normals[used], after.normals[used])
-    return meaningful(np.nanmean(angles)) if np.isfinite(angles).any() else 0.0
+    return meaningful(float(np.nanmean(angles))) if np.isfinite(angles).any() else 0.0
 
 
 def meaningful(value: float, scale: float = 1.0) -> float:

@@ -34,9 +34,30 @@ FAULTS = [
     Fault(
         "a page replaces a file of the user",
         "batch/jobs.py",
-        'check_place(job.page, force, "{name}.html")',
-        'check_place(job.page, True, "{name}.html")',
+        'check_page(job.page, force, is_continued, "{name}.html")',
+        'check_page(job.page, True, is_continued, "{name}.html")',
         "tests/cli/test_reports.py",
+    ),
+    Fault(
+        "a batch that goes on replaces a file of the user",
+        "batch/jobs.py",
+        "(is_continued and _is_page(path))",
+        "is_continued",
+        "tests/cli/test_reports.py",
+    ),
+    Fault(
+        "a table replaces a page or the records",
+        "batch/jobs.py",
+        "        if use != what:",
+        "        if False:",
+        "tests/cli/test_reports.py",
+    ),
+    Fault(
+        "a mesh without its faces is called better",
+        "report/rows.py",
+        "flips is not None and len(before.faces) == len(after.faces)",
+        "flips is not None",
+        "tests/report/test_rows.py",
     ),
     Fault(
         "all shares have one table",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -35,9 +35,42 @@ LEGEND = (
 HINT = "With --report 'pages/{name}.html' each mesh gets a page of its own, in 3D."
 
 
-def surface_of(ms: pymeshlab.MeshSet) -> Surface | None:
-    """The current mesh; None without one."""
-    return current_surface(ms) if ms.mesh_number() else None
+class Layer(NamedTuple):
+    """The current layer: its surface, its name, how many layers there are, and its matrix."""
+
+    surface: Surface
+    name: str
+    layers: int
+    has_matrix: bool
+
+
+def current_layer(ms: pymeshlab.MeshSet) -> Layer | None:
+    """The current layer; None without one."""
+    if not ms.mesh_number():
+        return None
+    mesh = ms.current_mesh()
+    name = f"{mesh.label()!r}" if mesh.label() else f"{mesh.id()}"
+    has_matrix = not np.array_equal(mesh.transform_matrix(), np.eye(4))
+    return Layer(current_surface(ms), name, ms.mesh_number(), has_matrix)
+
+
+def _notes_on_layers(before: Layer, after: Layer) -> Iterator[str]:
+    """What a page of several layers does not show, and where its numbers are others."""
+    was, now = (f"layer {one.name} of {one.layers}" for one in (before, after))
+    if (before.name, before.layers) != (after.name, after.layers) and max(
+        before.layers, after.layers
+    ) > 1:
+        yield (
+            f"This page compares two layers: {was} before, and {now} after, which may be different "
+            "meshes. It shows no other layers."
+        )
+    elif after.layers > 1:
+        yield f"This page shows {now}, which is the current one, and no other layers."
+    if before.has_matrix or after.has_matrix:
+        yield (
+            "The layer has a matrix. Meshes and numbers of this page are those with the matrix "
+            "applied; what steps returned is of the coordinates without it."
+        )
 
 
 @contextmanager
@@ -56,8 +89,8 @@ def _noted(name: str) -> Iterator[None]:
 def current_picture(ms: pymeshlab.MeshSet) -> bytes | None:
     """A small picture of the current mesh; None without a mesh, or with a note if that fails."""
     with _noted("its picture"):
-        surface = surface_of(ms)
-        return None if surface is None else picture(surface)
+        layer = current_layer(ms)
+        return None if layer is None else picture(layer.surface)
     return None
 
 
@@ -75,7 +108,7 @@ def picture(surface: Surface) -> bytes:
 
 def write_page(
     job: Job,
-    before: Surface | None,
+    before: Layer | None,
     ms: pymeshlab.MeshSet,
     steps: Sequence[Step] | bytes,
     returned: Sequence[StepResult],
@@ -92,7 +125,7 @@ def write_page(
     if job.page is None:
         return
     with _noted(str(job.page)):
-        after = surface_of(ms)
+        after = current_layer(ms)
         if before is None or after is None:
             note(f"{job.page} is not written: there is no mesh {'after' if before else 'before'}")
             return
@@ -104,7 +137,18 @@ def write_page(
             **{name: number for name, number in versions().items() if name != "meshlab_willmore"},
         }
         title = ", ".join(path.name for path in job.inputs)
-        page(before, after, job.page, title=title, settings=settings, seconds=seconds, notes=notes)
+        if after.layers > 1:
+            title += f", layer {after.name} of {after.layers}"
+        notes = [*notes, *_notes_on_layers(before, after)]
+        page(
+            before.surface,
+            after.surface,
+            job.page,
+            title=title,
+            settings=settings,
+            seconds=seconds,
+            notes=notes,
+        )
 
 
 def _steps(steps: Iterable[Step]) -> dict[str, str]:

@@ -115,7 +115,7 @@ def do(work: Work, say: Say) -> Made:
         with memory.limited(memory.reachable()):
             ms = load(work.job, is_isolated=True)
         begin(MEASURING)
-        surface = pages.surface_of(ms) if work.job.page else None
+        layer = pages.current_layer(ms) if work.job.page else None
         _send_picture(work, ms, say)
         with lost_kernels.noted():
             before = _measures(ms, work)
@@ -130,7 +130,7 @@ def do(work: Work, say: Say) -> Made:
         begin(MEASURING)
         after = _measures(ms, work) if work.steps else None
         _send_picture(work, ms, say)
-        pages.write_page(work.job, surface, ms, work.steps, returned, seconds, notes)
+        pages.write_page(work.job, layer, ms, work.steps, returned, seconds, notes)
     return Made(outputs, tuple(returned), steps, before, after)
 
 

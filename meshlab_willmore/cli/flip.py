@@ -103,7 +103,7 @@ def _step(given: dict[str, Any]) -> Step:
 
 def _flip(job: Job, given: dict[str, Any], force: bool) -> Result:
     """Flip the edges of one mesh in this process."""
-    from ..batch.pages import surface_of, write_page
+    from ..batch.pages import current_layer, write_page
     from ..batch.process import DONE
     from ..batch.records import Result, StepResult
     from ..mesh_files.saving import SaveOptions, save
@@ -112,7 +112,7 @@ def _flip(job: Job, given: dict[str, Any], force: bool) -> Result:
     with progress.shown(path.name, 1) as status, notes_kept() as notes:
         status.begin("reading")
         ms = loading.loaded(path)
-        before = surface_of(ms) if job.page else None
+        before = current_layer(ms) if job.page else None
         status.begin("flipping")
         with progress.with_details(status, is_part=True):
             returned = _flipped(ms, path, given)

@@ -38,8 +38,8 @@ from .text import printable, saved_text, step_results
 if TYPE_CHECKING:
     import pymeshlab
 
+    from ..batch.pages import Layer
     from ..batch.records import Result
-    from ..demo.models import Surface
     from ..meshset.check import Call
     from ..meshset.play import Played
     from ..mlx.steps import Step
@@ -308,7 +308,7 @@ def _did(options: RunOptions, steps: int) -> str:
 
 def _run_job(options: RunOptions, job: Job) -> str:
     """Run the script on the inputs of a job; returns the lines to print."""
-    from ..batch.pages import surface_of
+    from ..batch.pages import current_layer
     from ..meshset.check import resolve
 
     if job.problem is not None:
@@ -319,7 +319,7 @@ def _run_job(options: RunOptions, job: Job) -> str:
         calls = resolve(options.steps, options.source, [mesh.id() for mesh in ms])
         if options.dry_run:
             return _intended(job, len(calls))
-        before = surface_of(ms) if job.page else None
+        before = current_layer(ms) if job.page else None
         played = play(ms, calls, options.source, Path(job.name).name)
         saved = _save(ms, job, options)
         seconds = time.perf_counter() - start
@@ -331,7 +331,7 @@ def _run_job(options: RunOptions, job: Job) -> str:
 
 def _write_page(
     job: Job,
-    before: Surface | None,
+    before: Layer | None,
     ms: pymeshlab.MeshSet,
     options: RunOptions,
     played: Sequence[Played],

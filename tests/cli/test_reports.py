@@ -2,6 +2,7 @@
 
 import json
 import re
+from html import unescape
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -280,6 +281,37 @@ def test_nothing_to_compare_is_said(cube):
     dry = call("run", script_file(FLIP), "-i", cube, "--report", "page.html", "--dry-run")
     assert dry.exit_code == 0
     assert not Path("page.html").exists()
+
+
+def test_page_names_the_layer_that_it_shows(cube):
+    two = cube_file("two.ply")
+    words = ["-i", cube, two, "--layers"]
+    result = call("run", script_file(FLIP), *words, "-o", "a.ply", "--report", "a.html")
+    assert result.exit_code == 0, result.stderr
+    text = unescape(Path("a.html").read_text())
+    assert "<h1>cube.ply, two.ply, layer 'cube.ply' of 2</h1>" in text
+    assert "<p>This page shows layer 'cube.ply' of 2, which is the current one, and no" in text
+    flatten = script_file(("Flatten Visible Layers", {}))
+    result = call("run", flatten, *words, "-o", "b.ply", "--report", "b.html", "--json", "r.jsonl")
+    assert result.exit_code == 0, result.stderr
+    text = unescape(Path("b.html").read_text())
+    assert "<p>This page compares two layers: layer 'cube.ply' of 2 before, and layer 'M" in text
+    assert "of 1 after, which may be different meshes." in text
+    # One layer needs no name.
+    assert call("flip", cube, "c.ply", "--report", "c.html").exit_code == 0
+    assert "layer" not in re.sub(
+        r"<(script|style).*?</\1>", "", Path("c.html").read_text(), flags=16
+    )
+
+
+def test_page_says_that_a_matrix_is_applied(cube):
+    scaled = ("Transform: Scale, Normalize", {"axisX": ("RichFloat", 3.0),
+        "uniformFlag": ("RichBool", "false"), "Freeze": ("RichBool", "false")})  # fmt: skip
+    result = call("run", script_file(scaled), "-i", cube, "-o", "a.ply", "--report", "a.html")
+    assert result.exit_code == 0, result.stderr
+    assert "<p>The layer has a matrix. Meshes and numbers" in Path("a.html").read_text()
+    assert call("flip", cube, "b.ply", "--report", "b.html").exit_code == 0
+    assert "has a matrix" not in Path("b.html").read_text()
 
 
 def test_mesh_without_a_page_is_saved_all_the_same(cube):

@@ -112,6 +112,8 @@ _FACES, _EDGES, _LOOSE = "faces", "edges", "vertices without faces"
 _OTHER_PARTS = (_FACES, _EDGES, _LOOSE)
 # Some formats hold texture coordinates only of meshes with a texture.
 _WITH_TEXTURE = "wt with a texture"
+# And these hold names of textures only of meshes with texture coordinates.
+_MAPPED_TEXTURES = ("obj", "ply")
 # What a mesh still has after PyMeshLab saved and loaded it; what is not loaded takes the keywords.
 _HELD = {
     "3ds": (_FACES, _LOOSE),
@@ -145,6 +147,13 @@ def losses(ms: pymeshlab.MeshSet, file: Path, ending: str, chosen: bool) -> Iter
     ]
     if lost:
         yield _no_place(ending, lost)
+    names = sorted(mesh.textures())
+    is_mapped = mesh.has_wedge_tex_coord() or mesh.has_vertex_tex_coord()
+    if names and not (is_mapped or chosen) and ending in _MAPPED_TEXTURES:
+        yield (
+            "without texture coordinates PyMeshLab does not save the names of textures "
+            f"({', '.join(names)})"
+        )
     yield from _rounding_losses(mesh, file, ending)
 
 

@@ -121,7 +121,9 @@ def take(ms: pymeshlab.MeshSet) -> MeshSnapshot:
         copy.save_current_mesh(str(path), save_textures=False, **_save_flags(mesh))
         records = ply.read(path)
         attributes = _take_attributes(mesh, _attribute_names(copy, folder, attribute_keys))
-    records = records._replace(edges=mesh.edge_matrix().astype(np.int32))
+        textures = records.textures or _unmapped_textures(copy, folder)
+    edges = mesh.edge_matrix().astype(np.int32)
+    records = records._replace(edges=edges, textures=textures)
     images = mesh.textures()
     unsupported = [
         *_curvatures(mesh),
@@ -181,8 +183,7 @@ def _attribute_names(
     """
     if not keys:
         return []
-    native.apply(copy, "set_selection_all")
-    native.apply(copy, "meshing_remove_selected_vertices")
+    _delete_all(copy)
     path = folder / "attributes.ply"
     copy.save_current_mesh(str(path), save_textures=False, **dict.fromkeys(keys, True))
     header = path.read_bytes().decode("utf-8", "surrogateescape")
@@ -200,6 +201,26 @@ def _attribute_names(
             if f"__ca_{kind}__{python_name(found[1])}" in keys:
                 names[kind, found[1]] = None
     return list(names)
+
+
+def _unmapped_textures(copy: pymeshlab.MeshSet, folder: Path) -> tuple[str, ...]:
+    """Names of textures, in their order, of a mesh without texture coordinates.
+
+    PyMeshLab's PLY names textures only beside coordinates, so the mesh gets some; `copy` is empty
+    afterwards.
+    """
+    if not copy.current_mesh().texture_number():
+        return ()
+    _delete_all(copy)
+    native.apply(copy, "compute_texcoord_by_function_per_wedge")
+    path = folder / "textures.ply"
+    copy.save_current_mesh(str(path), save_textures=False)
+    return ply.read(path).textures
+
+
+def _delete_all(copy: pymeshlab.MeshSet) -> None:
+    native.apply(copy, "set_selection_all")
+    native.apply(copy, "meshing_remove_selected_vertices")
 
 
 def _curvatures(mesh: pymeshlab.Mesh) -> Iterator[str]:

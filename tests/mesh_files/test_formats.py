@@ -154,3 +154,19 @@ def test_vertices_move_far_from_the_origin(ending, far, is_noted, capsys):
         f"Note: a.{ending}: so far from the origin, .{ending} files hold too few digits: vertices"
     )
     assert note.startswith(start) if is_noted else note == ""
+
+
+@pytest.mark.parametrize("ending", ["ply", "obj", "wrl"])
+def test_textures_without_coordinates(ending, capsys):
+    Path("t.png").write_bytes(ONE_PIXEL)
+    ms = pymeshlab.MeshSet()
+    ms.add_mesh(pymeshlab.Mesh(SQUARE, FACES))
+    ms.save_current_mesh("in.ply", binary=False)
+    text = Path("in.ply").read_text().replace("element", "comment TextureFile t.png\nelement", 1)
+    Path("in.ply").write_text(text)
+    ms.load_new_mesh("in.ply")
+    out = Path(f"out.{ending}")
+    save(ms, out, SaveOptions())
+    is_noted = "does not save the names of textures (t.png)" in capsys.readouterr().err
+    assert is_noted == (ending != "wrl")
+    assert (b"t.png" in out.read_bytes()) != is_noted

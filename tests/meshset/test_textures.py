@@ -287,6 +287,61 @@ def test_two_textures_of_one_name_stay_two(tmp_path):
     np.testing.assert_array_equal(after.faces["texnumber"], before.faces["texnumber"])
 
 
+# --- textures without coordinates ----------------------------------------------------------------
+
+
+def unmapped(folder, names):
+    """A mesh whose file names textures, of which those in PNG are there, but has no mapping."""
+    set_of(*meshes.bumpy_sphere(300)).save_current_mesh(str(folder / "mesh.ply"))
+    header, end, body = (folder / "mesh.ply").read_bytes().partition(b"end_header\n")
+    comments = "".join(f"comment TextureFile {name}\n" for name in names).encode()
+    (folder / "mesh.ply").write_bytes(header + comments + end + body)
+    for side, name in enumerate(sorted({*names}), 3):
+        if name.endswith(".png"):
+            (folder / name).write_bytes(black_png(side))
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(folder / "mesh.ply"))
+    return ms
+
+
+@pytest.mark.parametrize("taken", [lambda ms: ms, copied], ids=["loaded", "copied"])
+@pytest.mark.parametrize(
+    ("names", "found"),
+    [
+        (["there.png"], ("there.png",)),
+        (["missing.jpg"], ("dummy.png",)),
+        (["z.png", "missing.jpg", "a.png"], ("z.png", "dummy.png", "a.png")),
+        (["one.jpg", "two.jpg"], ("dummy.png", "dummy.png")),
+        (["a.png", "a.png"], ("a.png", "a.png")),
+    ],
+    ids=" ".join,
+)
+def test_textures_without_coordinates_are_kept(tmp_path, names, found, taken):
+    ms = taken(unmapped(tmp_path, names))
+    before, images, snapshot = state(ms), sizes(ms), take(ms)
+    assert snapshot.ply.textures == found
+    assert bool(images) == (taken is not copied)
+    assert snapshot.wedge_uv is None
+    assert ms.apply_filter(FLIP, maxflips=1)["flips"] == 1
+    after = state(ms)
+    for components in ("has_vertex_color", "has_vertex_scalar"):
+        # They come with the way in which a mesh without images is carried.
+        assert after.pop(components) >= before.pop(components)
+    assert_same_state(after, before)
+    assert (sizes(ms), take(ms).ply.textures) == (images, found)
+    assert take(ms).wedge_uv is None
+
+
+def test_an_unmapped_texture_and_attributes_are_kept(tmp_path):
+    ms = unmapped(tmp_path, ["there.png"])
+    values = np.random.default_rng(0).normal(size=300)
+    ms.current_mesh().add_vertex_custom_scalar_attribute(values, "w")
+    ms.apply_filter(FLIP, maxflips=1)
+    mesh = ms.current_mesh()
+    np.testing.assert_array_equal(mesh.vertex_custom_scalar_attribute_array("w"), values)
+    assert list(mesh.textures()) == ["there.png"]
+
+
 # --- mappings -----------------------------------------------------------------------------------
 
 OPTIONS = {"energy": "area", "foldangle": 180.0, "minshape": 0.0}

@@ -6,7 +6,7 @@ import pytest
 
 from meshlab_willmore import __version__
 
-from .pages import DOCS, README, ROOT, blocks
+from .pages import DOCS, README, ROOT, blocks, name_of, pages
 from .tables import table_with
 
 MOST_CHARACTERS = 8000
@@ -80,3 +80,15 @@ def test_readme_has_the_figures_of_the_study():
             row = study["(scrambled)" if "scrambled" in want else "MeshLab curvature, mean"]
         found = [float(row[1]), float(row[3]), float(row[5])]
         assert [normals, shape, cuts] == [f"{found[0]:.2f}°", f"{found[1]:.3f}", f"{found[2]:.1f}"]
+
+
+def test_the_start_page_says_where_the_sources_are():
+    start = (DOCS / "start.md").read_text(encoding="utf-8")
+    address = ADDRESSES["Repository"]
+    assert f"]({address})" in start
+    assert f"git clone {address}\ncd {address.rpartition('/')[2]}\n" in start
+
+
+@pytest.mark.parametrize("page", pages(), ids=name_of)
+def test_pages_install_from_the_sources(page):
+    assert "pip install 'meshlab-willmore" not in page.read_text(encoding="utf-8")

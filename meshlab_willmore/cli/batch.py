@@ -22,7 +22,7 @@ from . import progress
 from .errors import is_debug
 from .reports import Reports, check_reports, chosen_reports
 from .scripts import STANDARD_STREAM
-from .text import how_many_failed, printable
+from .text import how_many_failed, in_window, printable
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -221,7 +221,7 @@ def run_batch(
             _report(result)
     if "summary" in given or (sys.stdout.isatty() and not prints_json):
         # The standard output is for the records only.
-        click.echo("\n".join(map(printable, summary.lines())), err=prints_json)
+        click.echo(in_window(summary.lines()), err=prints_json)
     if summary.failed == len(jobs) == 1:
         click.get_current_context().exit(1)
     if summary.failed:

@@ -44,7 +44,7 @@ Examples:
   meshlab-willmore compare scan.ply --report presets.html
   meshlab-willmore compare torus.ply --reference torus:3,1
   meshlab-willmore compare scan.ply --search variable-depth --timeout 10
-  meshlab-willmore compare rough.ply --reference fine.ply --json > rows.json
+  meshlab-willmore compare a.ply --reference fine.ply --json > rows.json
 """
 TIMEOUT = 60.0
 # These choose the rows.

@@ -60,7 +60,7 @@ Examples:
   meshlab-willmore run align.mlx -p scans.mlp -w aligned.mlp
   meshlab-willmore run clean.mlx -i scan.ply -o clean.obj -m vc vn wt
   meshlab-willmore run clean.mlx -i scan.ply -o clean.ply --log log.txt
-  meshlab-willmore run clean.mlx -i scan.ply -o a.ply --set 2.stepsmoothnum=5
+  meshlab-willmore run s.mlx -i a.ply -o b.ply --set 2.stepsmoothnum=5
   meshlab-willmore run clean.mlx -i scan.ply -o a.ply --report clean.html
   meshlab-willmore run align.mlx -i a.ply b.ply --layers -o both.ply
   meshlab-willmore run s.mlx -i *.ply --layers -o c.ply -l 1 -o d.ply -lx

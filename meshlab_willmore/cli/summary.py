@@ -15,7 +15,7 @@ from ..messages import WrongUse
 from .arguments import json_option
 from .completion import files
 from .errors import debug_option
-from .text import printable
+from .text import in_window
 
 EXAMPLES = """\b
 Examples:
@@ -46,7 +46,7 @@ def command(files: tuple[str, ...], as_json: bool) -> None:
         failed = [r.as_json() for r in results.values() if not r.is_done]
         click.echo(json.dumps({"counts": counts, "failed": failed}, indent=2))
     else:
-        click.echo("\n".join(map(printable, summary.lines())))
+        click.echo(in_window(summary.lines()))
     if summary.failed:
         click.get_current_context().exit(1)
 

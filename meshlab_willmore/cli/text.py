@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..batch.steplog import in_line, plain
-from ..messages import counted
+from ..messages import counted, wrapped
 
 if TYPE_CHECKING:
     from ..batch.records import Saved, StepResult
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 WIDTH = 80
 GAP = "  "
 _DOTS = "..."
+# Before the rest of a line that was broken.
+_INDENT = "    "
 # In a window that is too narrow for that, lines wrap.
 _LEAST_OF_NAME = 12
 
@@ -81,12 +83,33 @@ def fitted(rows: Sequence[Sequence[str]]) -> list[tuple[str, ...]]:
 
     In a pipe names stay whole, unless the variable ``COLUMNS`` gives a width.
     """
-    if not (terminal_width(sys.stdout) or "COLUMNS" in os.environ):
+    if not _has_window():
         return [(printable(name), *rest) for name, *rest in rows]
     window = shutil.get_terminal_size().columns
     others = [_column_width(column) for column in list(zip(*rows, strict=True))[1:]]
     room = max(window - sum(others) - len(GAP) * len(others), _LEAST_OF_NAME)
     return [(end_of(printable(name), room), *rest) for name, *rest in rows]
+
+
+def in_window(lines: Iterable[str]) -> str:
+    """The lines, those that are longer than the window's broken at blanks, and indented.
+
+    In a pipe they stay whole, unless the variable ``COLUMNS`` gives a width.
+    """
+    shown = [printable(line) for line in lines]
+    if not _has_window():
+        return "\n".join(shown)
+    columns = shutil.get_terminal_size().columns
+    broken: list[str] = []
+    for line in shown:
+        parts = wrapped(line, max(columns - len(_INDENT), _LEAST_OF_NAME))
+        broken += parts[:1] + [_INDENT + part for part in parts[1:]]
+    return "\n".join(broken)
+
+
+def _has_window() -> bool:
+    """Whether the standard output has a width."""
+    return bool(terminal_width(sys.stdout) or "COLUMNS" in os.environ)
 
 
 def how_many_failed(failed: int, count: int) -> str:

@@ -45,6 +45,12 @@ def test_hyphens_can_be_copied():
     assert re.search(r"(?<!\\)-", body) is None
 
 
+def test_examples_fit_into_80_columns():
+    """Man indents them by 7."""
+    for command in main.commands.values():
+        assert max(map(len, (command.epilog or "").splitlines()), default=0) <= 80 - 7
+
+
 @pytest.mark.skipif(not shutil.which("man"), reason="there is no man")
 def test_man_shows_the_page_without_warnings(tmp_path):
     path = tmp_path / "page.1"
@@ -57,5 +63,6 @@ def test_man_shows_the_page_without_warnings(tmp_path):
         env={"MANWIDTH": "80", "LC_ALL": "C.UTF-8", "PATH": "/usr/bin:/bin"},
     )
     assert done.stderr == ""
+    assert max(map(len, done.stdout.splitlines())) <= 80
     assert "meshlab-willmore flip scan.ply flipped.ply --search variable-depth\n" in done.stdout
     assert "'virtual-willmore'" in done.stdout

@@ -1,5 +1,8 @@
 """Tables that fit into the window, and results of filters as text."""
 
+import json
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -30,6 +33,23 @@ def test_names_are_whole_in_a_pipe(monkeypatch, tmp_path):
     (tmp_path / ("long" * 30)).mkdir()
     name = cube_file(tmp_path / ("long" * 30) / "cube.ply")
     assert call("measure", name).stdout.splitlines()[2].startswith(f"{name} ")
+
+
+@pytest.mark.parametrize("columns", [80, 40, None])
+def test_a_summary_fits_into_the_window(monkeypatch, columns):
+    monkeypatch.delenv("COLUMNS", raising=False)
+    if columns:
+        monkeypatch.setenv("COLUMNS", str(columns))
+    names = [f"a-folder-of-scans/{n}.ply" for n in range(4)]
+    records = [
+        {"input": name, "status": "error", "seconds": 9.0, "reason": f"{name}: {'it failed ' * 9}"}
+        for name in names
+    ]
+    Path("log.jsonl").write_text("\n".join(map(json.dumps, records)))
+    lines = call("summary", "log.jsonl").stdout.splitlines()
+    assert (max(map(width, lines)) <= (columns or 0)) == bool(columns)
+    assert len([line for line in lines if not line.startswith("    ")]) == 6
+    assert " ".join(" ".join(lines).split()).count(f"error: {names[0]}: it failed it") == 1
 
 
 def test_columns_are_aligned_by_visible_width():

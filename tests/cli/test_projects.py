@@ -71,6 +71,17 @@ def layers_of(path):
     ]
 
 
+def test_meshes_of_the_project_that_is_read_change_by_force_only(project):
+    call("run", "-p", project, "-w", "two.mlp")
+    meshes = [Path("two_0.ply"), Path("two_1.ply")]
+    before = [file.read_bytes() for file in meshes]
+    arguments = ["run", script_file(FLIP), "-p", "two.mlp", "-w", "two.mlp"]
+    assert "already exists" in call(*arguments).stderr
+    assert [file.read_bytes() for file in meshes] == before
+    assert call(*arguments, "--force").exit_code == 0
+    assert [file.read_bytes() for file in meshes] != before
+
+
 def test_layers_keep_mesh_label_place_and_visibility(project):
     before = listing()
     result = call("run", "-p", project, "-w", "out.mlp")

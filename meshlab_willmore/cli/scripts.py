@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from ..meshset.check import Findings
 
 STANDARD_STREAM = "-"
+ENDING = ".mlx"
 _FOLDER = "filter_scripts"
 
 # Names with the ending of a script, the standard input, and what a shell puts for ``<(...)``.
@@ -43,7 +44,8 @@ def is_script(word: str) -> bool:
 def read_script(name: str) -> Script:
     """The script of a file or pipe; ``-`` is the standard input.
 
-    A name without a folder that no file has can be that of a script of this package.
+    A name without a folder that no file has can be that of a script of this package; the ending
+    of its name may be left out.
 
     Raises `WrongUse` if there is no such file, `ScriptError` if it can't be read.
     """
@@ -60,12 +62,21 @@ def read_script(name: str) -> Script:
         )
     if os.path.lexists(name):
         return Script(name, bytes_of(Path(name)))
-    shipped = shipped_scripts().get(name)
+    whole = f"{name}{ENDING}"
+    if os.path.isfile(whole):
+        raise WrongUse(f"there is no filter script {name}; there is {whole}")
+    shipped = shipped_of(name)
     if shipped is None:
         hint = "'meshlab-willmore scripts' lists the shipped ones"
         raise WrongUse(f"there is no filter script {name}; {hint}")
-    note(f"{name} is the script that comes with meshlab_willmore")
-    return Script(name, bytes_of(shipped))
+    note(f"{shipped.name} is the script that comes with meshlab_willmore")
+    return Script(shipped.name, bytes_of(shipped))
+
+
+def shipped_of(name: str) -> Path | None:
+    """The script of this package that has a name, whose ending may be left out."""
+    there = shipped_scripts()
+    return there.get(name) or there.get(f"{name}{ENDING}")
 
 
 def shipped_scripts() -> dict[str, Path]:

@@ -15,7 +15,7 @@ from ..messages import WrongUse
 from .arguments import force_option
 from .completion import shipped
 from .errors import debug_option
-from .scripts import shipped_scripts
+from .scripts import shipped_of, shipped_scripts
 from .text import WIDTH
 
 EXAMPLES = """\b
@@ -46,7 +46,7 @@ def command(names: tuple[str, ...], folder: Path | None, force: bool) -> None:
     'run' finds them by their names, where no file has that name: meshlab-willmore run flip.mlx ...
     """
     there = shipped_scripts()
-    paths = [_named(name, there) for name in names]
+    paths = [_named(name) for name in names]
     if folder is not None:
         _copy(paths or [*there.values()], folder, force)
     elif paths:
@@ -55,10 +55,11 @@ def command(names: tuple[str, ...], folder: Path | None, force: bool) -> None:
         click.echo("\n".join(_described(there.values())))
 
 
-def _named(name: str, there: dict[str, Path]) -> Path:
-    path = there.get(name) or there.get(f"{name}.mlx")
+def _named(name: str) -> Path:
+    path = shipped_of(name)
     if path is None:
-        raise WrongUse(f"no script {name!r} comes with this package; there are {', '.join(there)}")
+        there = ", ".join(shipped_scripts())
+        raise WrongUse(f"no script {name!r} comes with this package; there are {there}")
     return path
 
 

@@ -72,6 +72,21 @@ def test_a_file_of_that_name_comes_first(cube):
     assert "no such file" in call("run", "flip.mlx", "-i", cube).stderr
 
 
+@pytest.mark.parametrize("arguments", [["flip"], ["-s", "flip"]])
+def test_the_ending_may_be_left_out(cube, arguments):
+    result = call("run", *arguments, "-i", cube)
+    assert result.exit_code == 0
+    assert "Note: flip.mlx is the script that comes with meshlab_willmore\n" in result.stderr
+    assert ": 1 step, " in result.stdout
+
+
+def test_a_file_whose_ending_is_left_out_is_named(cube):
+    script_file(TAUBIN, path="flip.mlx")
+    result = call("run", "flip", "-i", cube)
+    assert result.exit_code == 2
+    assert result.stderr == "Error: there is no filter script flip; there is flip.mlx\n"
+
+
 @pytest.mark.parametrize("name", ["./flip.mlx", "scripts/flip.mlx", "flop.mlx"])
 def test_other_names_are_files_only(cube, name):
     result = call("run", name, "-i", cube)

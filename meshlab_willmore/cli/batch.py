@@ -19,7 +19,7 @@ from ..batch.summary import Summary, duration, failure
 from ..files import STANDARD_OUTPUT
 from ..messages import WrongUse, note
 from . import progress
-from .errors import is_debug
+from .errors import is_debug, verbosity
 from .reports import Reports, check_reports, chosen_reports
 from .scripts import STANDARD_STREAM
 from .text import how_many_failed, in_window, printable
@@ -184,6 +184,11 @@ def run_batch(
     """
     from ..batch.runner import Batch
 
+    if verbosity():
+        note(
+            "-v has no effect in a batch (several meshes, or an option of a batch such as --json); "
+            "for the log of a mesh, process it alone"
+        )
     given = given_options()
     summary = Summary()
     table = None if recipe.dry_run else chosen_reports().table

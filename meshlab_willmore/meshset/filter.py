@@ -102,6 +102,12 @@ def length_of(ms: MeshSet, value: Any) -> Any:
     return value.percent / 100.0 * ms.current_mesh().bounding_box().diagonal()
 
 
+def _by_name(filter_: Filter, values: dict[str, Any]) -> dict[str, Any]:
+    """The values with the names of choices in place of their indices."""
+    choices = {p.name: p.choices for p in filter_.parameters if p.choices}
+    return {n: choices[n][value] if n in choices else value for n, value in values.items()}
+
+
 def apply(ms: MeshSet, filter_: Filter, values: dict[str, Any]) -> dict[str, Any]:
     """Run a filter with all its values, and return what it returns.
 
@@ -120,7 +126,7 @@ def apply(ms: MeshSet, filter_: Filter, values: dict[str, Any]) -> dict[str, Any
             with native.in_order():
                 print(f"\nApplying filter {filter_.name} with the following parameters:")
                 print(f"{shown_values(ms, values)}\n")
-        _log.debug("%s with %s", filter_.name, values)
+        _log.debug("%s with %s", filter_.name, _by_name(filter_, values))
         try:
             with listening(_print) if verbosity.all else nullcontext():
                 returned, log = _run(ms, filter_, values)

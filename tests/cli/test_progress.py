@@ -235,6 +235,13 @@ def test_verbose_prints_the_log(script, cube, command, given, words):
     assert logging.getLogger("meshlab_willmore").level == logging.NOTSET
 
 
+def test_verbose_in_a_batch_is_noted(cube):
+    arguments = ["flip", cube, "{name}.off", "--json", "log.jsonl", "--force"]
+    noted = "Note: -v has no effect in a batch"
+    assert call(*arguments, "-v").stderr.startswith(noted)
+    assert noted not in call(*arguments, "--resume").stderr
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="needs a terminal of POSIX")
 @pytest.mark.slow
 def test_progress_bar_on_a_terminal(script, cube):

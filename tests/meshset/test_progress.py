@@ -157,5 +157,5 @@ def test_steps_and_filters_are_logged(caplog):
     text = "\n".join(record.getMessage() for record in caplog.records)
     assert re.search(r"filter script: step 1 \(apply_coord_taubin_smoothing\) of 3, \d", text)
     assert re.search(rf"{FLIP}: \d+ Willmore edge flips performed in", text)
-    assert f"{FLIP} with {{'preset': " in text
+    assert f"{FLIP} with {{'preset': 'paper', " in text
     assert re.search(r"pass 1 of 1, virtual willmore by parallel greedy: \d+ flips", text)

@@ -195,8 +195,10 @@ def test_flips_before_the_chains_are_no_limit(monkeypatch):
     scramble(scrambled, 1)
     assert greedy.run(KERNELS["willmore"], copy_of(scrambled), rules_for("willmore")).flips
     heard = []
+    # What other threads do is not heard.
+    alone = Settings(LIMITS, threads=1)
     with listening(lambda fraction, text: heard.append(text), seconds=0.0):
-        searched(scrambled, "willmore")
+        variable_depth.run(KERNELS["willmore"], scrambled, rules_for("willmore"), None, alone)
     assert parts
     assert all(heard)
     assert any(" parts" in text for text in heard)

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import click
+from click.shell_completion import CompletionItem
 
 from ..mesh_files.formats import MANNERS, PARTS
 from ..mesh_files.paths import PROJECT, Output, is_project
@@ -108,6 +109,13 @@ class Choice(click.Choice):
         """The name itself."""
         found = super().convert(hyphened(value), param, ctx)
         return self._names.get(found, found)
+
+    def shell_complete(self, ctx: Any, param: Any, incomplete: str) -> list[CompletionItem[Any]]:
+        """The names that begin so: with blanks if what is typed has one, which is quoted then."""
+        found = super().shell_complete(ctx, param, hyphened(incomplete))
+        if " " not in incomplete:
+            return found
+        return [CompletionItem(self._names[item.value]) for item in found]
 
 
 def hyphened(name: str) -> str:

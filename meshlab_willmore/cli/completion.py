@@ -31,7 +31,10 @@ Examples:
 
 
 class _Bash(BashComplete):
-    """Quotes values with blanks: click's own script takes them apart."""
+    """Quotes values with blanks: click's own script takes them apart.
+
+    Bash gives ``--option=value`` as three words, of which ``=`` is left out.
+    """
 
     source_template = """\
 %(complete_func)s() {
@@ -52,6 +55,21 @@ class _Bash(BashComplete):
 complete -o nosort -F %(complete_func)s %(prog_name)s
 """
 
+    def get_completion_args(self) -> tuple[list[str], str]:
+        """The words before the cursor, and the one at it."""
+        words, incomplete = super().get_completion_args()
+        pairs = zip(["", *words], words, strict=False)
+        return [word for last, word in pairs if word != "=" or last[:2] != "--"], incomplete
+
+
+class _Zsh(ZshComplete):
+    """Keeps the name of an option before ``=``: click's own script replaces the whole word."""
+
+    source_template = ZshComplete.source_template.replace(
+        "    for type key descr",
+        "    [[ $words[CURRENT] == --*=* ]] && compset -P 1 '*='\n    for type key descr",
+    ).replace("compadd -U", 'compadd -U -i "$IPREFIX"')
+
 
 class _Fish(FishComplete):
     """Keeps values with commas whole."""
@@ -61,7 +79,7 @@ class _Fish(FishComplete):
     )
 
 
-SHELLS: dict[str, type[ShellComplete]] = {"bash": _Bash, "fish": _Fish, "zsh": ZshComplete}
+SHELLS: dict[str, type[ShellComplete]] = {"bash": _Bash, "fish": _Fish, "zsh": _Zsh}
 for _shell in SHELLS.values():
     add_completion_class(_shell)
 
@@ -91,6 +109,11 @@ def command(shell: str) -> None:
 def files(_: click.Context, __: click.Parameter, incomplete: str) -> list[CompletionItem[Any]]:
     """Names of files and folders, by the shell itself."""
     return [CompletionItem(incomplete, type="file")]
+
+
+def folders(_: click.Context, __: click.Parameter, incomplete: str) -> list[CompletionItem[Any]]:
+    """Names of folders, by the shell itself."""
+    return [CompletionItem(incomplete, type="dir")]
 
 
 def scripts(ctx: click.Context, param: click.Parameter, incomplete: str) -> Any:

@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from . import progress
+from .completion import folders
 from .errors import debug_option
 
 EXAMPLES = """\b
@@ -25,6 +26,7 @@ Examples:
     default=Path("willmore-demo"),
     show_default=True,
     metavar="DIR",
+    shell_complete=folders,
     help="Folder for the meshes and pictures; created if it does not exist.",
 )
 @debug_option

@@ -70,6 +70,7 @@ class _OptionalFile(click.Command):
     "--json",
     "json_file",
     metavar="[FILE.jsonl]",
+    shell_complete=files,
     help="Print JSON; or write a line of it into the file for each mesh as it ends.",
 )
 @batch_options

@@ -13,7 +13,7 @@ from .. import files
 from ..mesh_files.paths import check_place
 from ..messages import WrongUse
 from .arguments import force_option
-from .completion import shipped
+from .completion import folders, shipped
 from .errors import debug_option
 from .scripts import shipped_of, shipped_scripts
 from .text import WIDTH
@@ -36,6 +36,7 @@ _INDENT = "    "
     "folder",
     type=click.Path(path_type=Path),
     metavar="DIR",
+    shell_complete=folders,
     help="Copy the scripts into this folder; created if it does not exist.",
 )
 @force_option

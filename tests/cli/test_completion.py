@@ -9,6 +9,7 @@ import pytest
 from click.shell_completion import ShellComplete
 
 from meshlab_willmore.cli import completion, main
+from meshlab_willmore.options import SEARCHES
 
 from .conftest import call, cube_file
 
@@ -37,6 +38,7 @@ def test_choices_need_no_quotes():
     assert names("flip", "--search", "v") == ["variable-depth"]
     assert names("flip", "--energy", "mean") == ["mean-curvature"]
     assert names("flip", "a.ply", "b.ply", "--preset=s") == ["smooth", "shape"]
+    assert names("flip", "--energy", "mean c") == ["mean curvature"]
     assert "vn" in names("run", "-i", "a.ply", "-o", "b.ply", "-m", "v")
 
 
@@ -67,10 +69,16 @@ def test_filters_are_offered_by_both_names():
         ["run", "a.mlx", "-w", ""],
         ["run", "a.mlx", "--log", ""],
         ["run", "a.mlx", "--json", ""],
+        ["measure", "a.ply", "--json", ""],
     ],
 )
 def test_files_are_left_to_the_shell(line):
     assert offered(*line) == [("file", line[-1])]
+
+
+@pytest.mark.parametrize("line", [["scripts", "--copy", ""], ["demo", "-o", "a"]])
+def test_folders_are_left_to_the_shell(line):
+    assert offered(*line) == [("dir", line[-1])]
 
 
 def test_scripts_are_files_or_those_of_the_package():
@@ -124,6 +132,10 @@ def program(tmp_path, monkeypatch):
         (["filters", "'Willmore f"], ["Willmore flipping optimization"]),
         (["filters", "Transform:\\ Translate,"], ["Transform: Translate, Center, set Origin"]),
         (["flip", "--search", "va"], ["variable-depth"]),
+        (["flip", "--search", "=", "va"], ["variable-depth"]),
+        (["flip", "--search", "="], [name.replace(" ", "-") for name in SEARCHES]),
+        (["flip", "--search", "=", "greedy", "--energy", "=", "mean"], ["mean-curvature"]),
+        (["flip", "--energy", '"mean c'], ["mean curvature"]),
     ],
 )
 def test_bash_gets_whole_values(program, words, replies):
@@ -140,6 +152,26 @@ def test_bash_gets_whole_values(program, words, replies):
     )
     done = subprocess.run(["bash", "-c", text], capture_output=True, text=True, check=True)
     assert done.stdout.splitlines() == ["option filenames", *replies]
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not shutil.which("zsh"), reason="there is no zsh")
+@pytest.mark.usefixtures("program")
+def test_zsh_keeps_the_option_before_its_value():
+    """Completion functions run in an editor only: these take the place of its commands."""
+    Path("zsh-script").write_text(call("completion", "zsh").stdout)
+    lines = [
+        "compdef() { }",
+        "compset() { IPREFIX=${words[CURRENT]%%=*}=; }",
+        'compadd() { print -r -- "$@" "$completions"; }',
+        "source ./zsh-script",
+        "words=(meshlab-willmore flip --energy=mea); CURRENT=3",
+        "_meshlab_willmore_completion",
+    ]
+    done = subprocess.run(
+        ["zsh", "-f", "-c", "\n".join(lines)], capture_output=True, text=True, check=True
+    )
+    assert done.stdout == "-U -i --energy= -V unsorted -a completions mean-curvature\n"
 
 
 def quoted(word):

@@ -89,6 +89,12 @@ def test_the_start_page_says_where_the_sources_are():
     assert f"git clone {address}\ncd {address.rpartition('/')[2]}\n" in start
 
 
+def test_addresses_of_the_package_lead_to_the_site_and_the_repository():
+    assert ADDRESSES["Issues"] == f"{ADDRESSES['Repository']}/issues"
+    page = ADDRESSES["Changelog"].removeprefix(ADDRESSES["Documentation"])
+    assert (DOCS / page).with_suffix(".md").exists()
+
+
 @pytest.mark.parametrize("page", pages(), ids=name_of)
 def test_pages_install_from_the_sources(page):
     assert "pip install 'meshlab-willmore" not in page.read_text(encoding="utf-8")

@@ -130,10 +130,11 @@ class FlipResult(NamedTuple):
         )
         done = ", ".join(f"{one.energy} by {one.search}" for one in self.passes)
         return (
-            f"<p><b>{self.flips:,} flips</b> of {len(self.faces):,} faces: {escape(done)}; "
+            '<div style="max-width: 100%; overflow-x: auto">'
+            f"<p><b>{self.flips:,} flips made</b> of {len(self.faces):,} faces: {escape(done)}; "
             f"{escape(self.reason)}.</p>"
             "<table><thead><tr><th></th><th>before</th><th>after</th></tr></thead>"
-            f"<tbody>{cells}<tr><th></th>{self._pictures()}</tr></tbody></table>"
+            f"<tbody>{cells}<tr><th></th>{self._pictures()}</tr></tbody></table></div>"
         )
 
     def _pictures(self) -> str:

@@ -18,7 +18,7 @@ def test_notebook_shows_a_table_and_both_meshes():
     vertices, faces = meshes.bumpy_sphere(100)
     result = optimize_flips(vertices, faces, energy="willmore")
     text = result._repr_html_()
-    assert f"<b>{result.flips} flips</b> of 196 faces" in text
+    assert f"<b>{result.flips} flips made</b> of 196 faces" in text
     for value in (result.willmore_before, result.willmore_after, result.mean_shape_after):
         assert f"<td>{value:.6g}</td>" in text
     assert "willmore by parallel greedy" in text

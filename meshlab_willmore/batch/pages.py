@@ -69,7 +69,7 @@ def _notes_on_layers(before: Layer, after: Layer) -> Iterator[str]:
     if before.has_matrix or after.has_matrix:
         yield (
             "The layer has a matrix. Meshes and numbers of this page are those with the matrix "
-            "applied; what steps returned is of the coordinates without it."
+            "applied; edge flips, and what they return, go by the coordinates without it."
         )
 
 

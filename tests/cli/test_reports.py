@@ -310,6 +310,14 @@ def test_page_says_that_a_matrix_is_applied(cube):
     result = call("run", script_file(scaled), "-i", cube, "-o", "a.ply", "--report", "a.html")
     assert result.exit_code == 0, result.stderr
     assert "<p>The layer has a matrix. Meshes and numbers" in Path("a.html").read_text()
+    # Then the page's W is not the one that flips return, as the note says.
+    result = call("run", script_file(scaled, FLIP), "-i", cube, "-o", "c.ply", "--report", "c.html")
+    assert result.exit_code == 0, result.stderr
+    text = Path("c.html").read_text()
+    returned = re.search(r"willmore_after = ([\d.]+)", text)[1]
+    shown = re.search(r"Willmore energy W<small>.*?</td><td>([\d.,]+)</td>", text)[1]
+    assert float(returned) != pytest.approx(float(shown.replace(",", "")), rel=1e-3)
+    assert "edge flips, and what they return, go by the coordinates without it" in text
     assert call("flip", cube, "b.ply", "--report", "b.html").exit_code == 0
     assert "has a matrix" not in Path("b.html").read_text()
 

@@ -139,7 +139,7 @@ FAULTS = [
     Fault(
         "keys do nothing",
         "report/parts/viewer.js",
-        'on("keydown", pressed);',
+        'document.addEventListener("keydown", pressed);',
         "",
         "tests/report/test_viewer.py",
     ),

@@ -59,6 +59,7 @@ def test_table_fits_the_screen(browse, path, width):
         assert opened.page.locator("img").count() == 2
         assert opened.page.get_attribute("td a", "href") == "pages/a%20b%23%3F.html"
         assert opened.page.locator(".status.failed").is_visible()
+        assert opened.page.locator(".narrow").is_visible() == (width == 390)
         # Nothing of the title is an element.
         assert opened.page.inner_text("h1") == "<b>"
 

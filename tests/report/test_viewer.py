@@ -96,6 +96,31 @@ def test_keyboard_does_all(browse, sphere_page):
         assert opened.complaints == []
 
 
+def test_keys_work_on_a_fresh_page_whose_arrows_scroll(browse, sphere_page):
+    with browse(sphere_page) as opened:
+        page_ = opened.page
+        for number, mode in reversed([*enumerate(MODES, 1)]):
+            page_.keyboard.press(f"{number}")
+            assert page_.is_checked(f'input[value="{mode}"]')
+        page_.keyboard.press("n")
+        assert page_.get_attribute('[data-place="0"]', "aria-pressed") == "true"
+        opened.settle()
+        start = opened.picture("#canvas")
+        page_.keyboard.press("ArrowDown")
+        page_.wait_for_function("scrollY > 0")
+        page_.evaluate("scrollTo(0, 0)")
+        opened.settle()
+        assert differs(start, opened.picture("#canvas")) == 0.0
+
+
+def test_result_in_a_narrow_notebook_scrolls_by_itself(browse, flipped, tmp_path):
+    path = tmp_path / "notebook.html"
+    path.write_text(f"<html><body>{flipped[2]._repr_html_()}</body></html>", encoding="utf-8")
+    with browse(path, 390, state="") as opened:
+        assert opened.page.evaluate("document.documentElement.scrollWidth") <= 390
+        assert opened.page.locator("table").bounding_box()["width"] > 390
+
+
 def test_drag_turns_and_the_wheel_zooms_once_the_picture_is_clicked(browse, sphere_page):
     with browse(sphere_page) as opened:
         mouse, box = opened.page.mouse, opened.page.locator("#canvas").bounding_box()

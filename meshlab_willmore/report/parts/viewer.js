@@ -226,7 +226,7 @@ const KEYS = {
 };
 
 function pressed(event) {
-  const arrow = ARROWS[event.key]?.map((step) => 0.1 * step);
+  const arrow = event.target === canvas && ARROWS[event.key]?.map((step) => 0.1 * step);
   const input = all('input[name="mode"]')[Number(event.key) - 1];
   if (event.ctrlKey || event.altKey || event.metaKey) return;
   else if (arrow && event.shiftKey) panBy(...arrow.map((step) => step * view.half));
@@ -271,7 +271,7 @@ function listen() {
   on("pointermove", dragged);
   on("contextmenu", (event) => event.preventDefault());
   on("wheel", wheeled);
-  on("keydown", pressed);
+  document.addEventListener("keydown", pressed);
   byId("modes").addEventListener("change", (event) => choose(event.target.value));
   byId("places").addEventListener("click", (event) => {
     const button = event.target.closest("[data-place]");

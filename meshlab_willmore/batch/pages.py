@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
 # A picture is drawn of so many faces at most.
 MOST_FACES = 1_000_000
+# What a step returns may be so far from 0 that it should be.
+_ROUNDING_ERROR = 1e-12
 
 COLUMNS = ("Faces", "Flips made", "W before", "W after", "W %", "Seconds", "MiB")
 LEGEND = (
@@ -131,7 +133,7 @@ def write_page(
             return
         settings = {
             **({} if isinstance(steps, bytes) else _steps(steps)),
-            **{f"Step {one.number} returned": _listed(one.returned) for one in returned},
+            **{f"Step {one.number} returned": _listed(_rounded(one.returned)) for one in returned},
             "Inputs": job.name,
             "Outputs": ", ".join(output.name for output in job.outputs) or "none",
             **{name: number for name, number in versions().items() if name != "meshlab_willmore"},
@@ -160,12 +162,20 @@ def _steps(steps: Iterable[Step]) -> dict[str, str]:
     }
 
 
+def _rounded(returned: Mapping[str, Any]) -> dict[str, Any]:
+    """What a step returned, with 0 in place of rounding errors such as -8.88e-16."""
+    return {
+        key: 0.0 if type(value) is float and abs(value) < _ROUNDING_ERROR else value
+        for key, value in returned.items()
+    }
+
+
 def _listed(values: Mapping[str, Any]) -> str:
     return ", ".join(f"{key} = {_text(value)}" for key, value in values.items())
 
 
 def _text(value: Any) -> str:
-    return f"{value + 0.0:.6g}" if type(value) is float else steplog.in_line(value)
+    return f"{value:.6g}" if type(value) is float else steplog.in_line(value)
 
 
 def write_table(path: Path, source: str, jobs: Sequence[Job], results: Iterable[Result]) -> None:

@@ -377,6 +377,16 @@ def test_batch_from_python_has_them_too():
     assert "<h1>two.ply</h1>" in Path("two.html").read_text()
 
 
+def test_rounding_errors_that_a_step_returned_are_zero(cube):
+    ms = loading.loaded(cube)
+    returned = {"drop": -0.0, "energy": -8.88e-16, "flips": 6, "share": -0.25}
+    job = Job((cube,), (), page=Path("page.html"))
+    step = StepResult(1, "x", 0.5, returned)
+    pages.write_page(job, pages.current_layer(ms), ms, (), [step], 0.5, ())
+    text = Path("page.html").read_text()
+    assert "drop = 0, energy = 0, flips = 6, share = -0.25" in text
+
+
 def test_picture_of_many_faces_is_one_of_some(monkeypatch):
     vertices, faces = meshes.bumpy_sphere(2000)
     whole = pages.picture(Surface(vertices, faces))

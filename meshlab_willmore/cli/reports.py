@@ -12,6 +12,7 @@ from ..batch.jobs import check_page
 from ..batch.shards import Shard
 from ..mesh_files.paths import Output
 from ..messages import WrongUse
+from .completion import files
 
 # Where click keeps the names that were given, and the pages that these are for.
 _NAMES, _CHOSEN = "report names", "reports"
@@ -36,6 +37,7 @@ report_option = click.option(
     expose_value=False,
     callback=_remember,
     metavar="PAGE.html",
+    shell_complete=files,
     help="Write a page for a browser: before and after in 3D and in numbers. For several meshes it "
     "is a table; with a placeholder, as in 'pages/{name}.html', each mesh has a page. Can be given "
     "twice, for both.",

@@ -68,6 +68,7 @@ def test_filters_are_offered_by_both_names():
         ["run", "-p", ""],
         ["run", "a.mlx", "-w", ""],
         ["run", "a.mlx", "--log", ""],
+        ["run", "a.mlx", "--report", ""],
         ["run", "a.mlx", "--json", ""],
         ["measure", "a.ply", "--json", ""],
     ],

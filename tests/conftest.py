@@ -45,7 +45,7 @@ with contextlib.suppress(ImportError):
     import fcntl
     fcntl.flock(lock, fcntl.LOCK_EX)
 if not mark.exists():
-    print("Compiling all kernels, this takes some minutes ...", flush=True)
+    print("Compiling all kernels, this takes a minute or two ...", flush=True)
     print(f"compiled {warm_up(lambda line: None, core_count()).compiled}")
     mark.touch()
 mark.parent.touch()

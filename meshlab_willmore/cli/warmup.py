@@ -23,8 +23,8 @@ def command() -> None:
     """Compile everything that the filters need, so that no later run has to wait for it.
 
     Numba keeps the machine code in a folder of the user, or in NUMBA_CACHE_DIR, which must then be
-    set for later runs too. This takes some minutes the first time, and seconds when everything is
-    compiled. 'meshlab-willmore doctor' shows whether it is.
+    set for later runs too. This takes a minute or two the first time, and seconds when everything
+    is compiled. 'meshlab-willmore doctor' shows whether it is.
     """
     from ..machine import core_count
     from ..warmup import steps, warm_up

@@ -5,7 +5,7 @@ The first ones may have to wait for the compiler, for every energy and search.
 
 import pytest
 
-from .cases import failures
+from .cases import Case, failures
 
 PARTS, CASES = 10, 50
 NIGHTLY_PARTS, NIGHTLY_CASES = 40, 500
@@ -22,6 +22,13 @@ def check(seed, part, cases):
 @pytest.mark.slow
 def test_every_promise_is_kept(part):
     check(0, part, CASES)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", [983, 3497, 3508, 3558, 3974])
+def test_a_second_run_makes_no_more_chains(number):
+    """Ties that went by the order of faces, and runs cut off by `maxflips`."""
+    Case(71, number).check()
 
 
 @pytest.mark.nightly

@@ -21,7 +21,7 @@ from .guards.bvh import build_bvh
 from .guards.intersections import mark_intersecting
 from .mesh.build import build, interior_vertices
 from .mesh.halfedge import Mesh
-from .mesh.jit import at, jit
+from .mesh.jit import allocating_jit, at, jit
 from .mesh.parallel import thread_pool
 from .mesh.validate import check_mesh, in_input_units, to_unit_scale
 
@@ -366,7 +366,7 @@ def _vertex_energy(mesh: Mesh) -> NDArray[np.float64]:
     return np.where(defined, sums - FULL_TURN, 0.0)
 
 
-@jit
+@allocating_jit
 def _sums_at_ends(mesh, beta):
     """Sum the angles of the edges, given at their lower twins, at their end vertices."""
     sums = np.zeros(len(mesh.vertices))
@@ -378,7 +378,7 @@ def _sums_at_ends(mesh, beta):
     return sums
 
 
-@jit
+@allocating_jit
 def _shapes(mesh):
     shapes = np.empty(len(mesh.origin) // 3)
     for f in range(len(shapes)):

@@ -16,7 +16,7 @@ import math
 import numpy as np
 
 from ..mesh.halfedge import NONE, apex, diamond, following, previous
-from ..mesh.jit import inner, jit
+from ..mesh.jit import allocating_jit, inner
 from ..mesh.points import angle_between, point, subtract
 from .angles import NO_ANGLES, add, radians
 from .triangles import complex_angle_between, has_coincident_corners
@@ -94,7 +94,7 @@ def cost_reduction(mesh, h):
     return gain if math.isfinite(gain) else -math.inf
 
 
-@jit
+@allocating_jit
 def angle_defects(mesh):
     """Return 2 pi - (sum of the angles) at each interior vertex (n,), and 0 at the others."""
     defects = np.zeros(len(mesh.vertices))
@@ -109,7 +109,7 @@ def angle_defects(mesh):
     return defects
 
 
-@jit
+@allocating_jit
 def total(mesh):
     """Return the total absolute Gaussian curvature of the mesh in radians."""
     return np.abs(angle_defects(mesh)).sum()

@@ -15,7 +15,7 @@ from numba import types
 from numba.extending import overload
 
 from ..mesh.halfedge import NONE, Mesh, diamond
-from ..mesh.jit import at, inner, jit
+from ..mesh.jit import allocating_jit, at, inner, jit
 from ..mesh.parallel import thread_pool
 
 # Faces in a leaf: half as many up to as many. More cost more tests, fewer cost memory.
@@ -154,7 +154,7 @@ def _leaf_order(mesh, leaves):
     return order
 
 
-@jit
+@allocating_jit
 def _centres(mesh):
     """Return the centres of the boxes of all faces, twice as large (3, m)."""
     centres = np.empty((3, len(mesh.origin) // 3))

@@ -13,7 +13,7 @@ what is left of it.
 
 import numpy as np
 
-from ..mesh.jit import inner
+from ..mesh.jit import allocating_inner, inner
 from ..mesh.points import Point, cross, dot, subtract
 from ..mesh.rounding import tail_of_product, tail_of_sum, tails
 
@@ -98,7 +98,7 @@ def _is_zero(a):
     return a.x == 0.0 and a.y == 0.0 and a.z == 0.0
 
 
-@inner
+@allocating_inner
 def _orient3d_again(a, b, c, d, size):
     """Do what `orient3d` does, where the error bound times `size` is too large."""
     # Seldom reached: an array of its own costs less than one that every caller carries along.
@@ -143,7 +143,7 @@ def orient3d(a, b, c, d):
     return _orient3d_again(a, b, c, d, size)
 
 
-@inner
+@allocating_inner
 def _orient2d_again(ax, ay, bx, by, cx, cy):
     expansion = np.empty(ROOM_2D)
     count = _add_product(expansion, 0, ax, by)

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .halfedge import NONE, Mesh, following, next_in_fan
-from .jit import at, inner, jit
+from .jit import allocating_jit, at, inner, jit
 from .parallel import thread_pool
 
 # Half-edges of one vertex that are sorted by insertion, which takes quadratic time.
@@ -14,7 +14,7 @@ MANY_EDGES = 64
 EDGE_SHIFT = 32
 
 
-@jit
+@allocating_jit
 def sort_by_vertex(order, vertex, starts):
     """Return `order` stably sorted by `vertex[order]`, in O(n + entries) time.
 
@@ -234,7 +234,7 @@ def _put_back(slots, start, stop):
             slots.corners[f, at(c)] = 3 * order[source // at(3)] + np.int32(source % at(3))
 
 
-@jit
+@allocating_jit
 def _lowest(faces):
     lowest = np.empty(len(faces), np.int32)
     for f in range(len(faces)):
@@ -283,7 +283,7 @@ def faces_of(mesh):
     return mesh.origin.reshape(-1, 3).copy()
 
 
-@jit
+@allocating_jit
 def interior_vertices(mesh):
     """Return the mask (n,) of the vertices whose faces form one closed fan."""
     interior = np.zeros(len(mesh.vertices), np.bool_)

@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .jit import at, inlined, inner, jit
+from .jit import allocating_jit, at, inlined, inner
 from .points import Point, norm, point, subtract
 
 NONE = -1
@@ -108,7 +108,7 @@ def diamond(mesh, h):
     )
 
 
-@jit
+@allocating_jit
 def lengths_of_sides(mesh):
     """Return the length of each half-edge (3 m,), an edge with two faces twice."""
     lengths = np.empty(len(mesh.origin))

@@ -10,6 +10,12 @@ each edge: a call passes each array.
 
 All but the first are compiled without the code that unpacks the arguments of a call from Python. It
 would take longer to compile than most kernels: it has a part for each array of their tuples.
+
+None of them counts references to arrays. Numba would count each array of each tuple at each call,
+which takes longer than most of what kernels do with them. It is not needed: the caller keeps what
+it passes until the call returns. So no kernel may create an array or copy a slice to another (Numba
+refuses to compile one that does), but for those with the decorators ``allocating_jit`` and
+``allocating_inner``, which count.
 """
 
 import contextlib
@@ -31,6 +37,9 @@ _INNER: dict[str, Any] = {
     "no_cfunc_wrapper": True,
     "no_cpython_wrapper": True,
 }
+# Numba's option to count references. Both say it, or a kernel would do as the one that calls it.
+_COUNTED: dict[str, Any] = {"_nrt": True}
+_UNCOUNTED: dict[str, Any] = {"_nrt": False}
 
 # All that `jit` and `inner` have returned in this process.
 KERNELS: list[Callable] = []
@@ -63,11 +72,11 @@ def _widened(kind):
     return types.int64 if kind == types.int32 else kind
 
 
-def _compiled(function, **options):
+def _compiled(function, options=_COUNTED):
     return njit(**_OUTER, **options)(function)
 
 
-def _compiled_inside(function, **options):
+def _compiled_inside(function, options=_COUNTED):
     kernel = njit(**_INNER, **options)(function)
     # With the JIT off it is the function.
     if isinstance(kernel, CPUDispatcher):
@@ -85,12 +94,25 @@ def _kept(compiled, function):
     return kernel
 
 
+def _compiled_uncounted(function):
+    return _compiled(function, _UNCOUNTED)
+
+
+def _compiled_inside_uncounted(function):
+    return _compiled_inside(function, _UNCOUNTED)
+
+
 def jit(function):
     """Return `function` compiled, with a cache on disk where one can be written.
 
     For the folder and its key see `meshlab_willmore.mesh.kernel_cache`. Without a folder that can
     be written (a read-only installation and no home) each process compiles for itself.
     """
+    return _kept(_compiled_uncounted, function)
+
+
+def allocating_jit(function):
+    """Return `function`, which creates or returns arrays, compiled as by `jit`."""
     return _kept(_compiled, function)
 
 
@@ -100,17 +122,22 @@ def inner(function):
     No function can be compiled in both ways: the cache does not distinguish them, and what `inner`
     left there crashes when Python calls it.
     """
+    return _kept(_compiled_inside_uncounted, function)
+
+
+def allocating_inner(function):
+    """Return `function`, which creates arrays, compiled as by `inner`."""
     return _kept(_compiled_inside, function)
 
 
 def generic(function):
     """Return `function`, which takes kernels, compiled for other kernels, without a cache."""
-    return _compiled_inside(function)
+    return _compiled_inside_uncounted(function)
 
 
 def inlined(function):
     """Return `function` compiled for other kernels, without a cache, and always inlined."""
-    return _compiled_inside(function, forceinline=True)
+    return _compiled_inside(function, {**_UNCOUNTED, "forceinline": True})
 
 
 @inlined

@@ -302,7 +302,8 @@ def _better(state, length, best):
         return best
     if rules.monotone and chain.willmore[length] < -rules.tie:
         return best
-    chain.best[:length] = chain.flipped[:length]
+    for s in range(length):
+        chain.best[s] = chain.flipped[s]
     return Prefix(length, chain.gain[length], chain.drop[length])
 
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from ..energy import willmore
 from ..energy.table import AT, ENERGIES, VIRTUAL_POINTS
-from ..mesh.jit import jit
+from ..mesh.jit import allocating_jit, jit
 from . import annealing, costs, scoring
 from .copies import with_globals
 
@@ -53,7 +53,7 @@ class Kernels(NamedTuple):
 
 
 @functools.cache
-def compiled(template, energy, judge=None):
+def compiled(template, energy, judge=None, compiler=jit):
     """Return a copy of a function in which `energy` and `judge` are these modules, compiled.
 
     Parameters
@@ -64,6 +64,8 @@ def compiled(template, energy, judge=None):
         With `cost_reduction`; with `drop` or `quick_reduction` where the template asks for it.
     judge : module, optional
         As `energy`; None: nothing is asked of it.
+    compiler : callable
+        A decorator of `meshlab_willmore.mesh.jit`.
 
     Returns
     -------
@@ -72,7 +74,7 @@ def compiled(template, energy, judge=None):
     """
     modules = [module.__name__.rpartition(".")[2] for module in (energy, judge) if module]
     name = "_".join([template.__name__, *modules])
-    return jit(with_globals(template, name, {"energy": energy, "judge": judge}))
+    return compiler(with_globals(template, name, {"energy": energy, "judge": judge}))
 
 
 @functools.cache
@@ -80,15 +82,17 @@ def _kernels(module, is_potential, most_loss):
     energy = importlib.import_module(f"..energy.{module}", __package__)
     other = None if is_potential else willmore
     judge = other or energy
-    score = scoring.score_batches if hasattr(energy, "drop") else scoring.score_each
+    score, compiler = scoring.score_each, jit
     if hasattr(energy, "quick_reduction"):
-        score = scoring.score_quickly
+        score, compiler = scoring.score_quickly, allocating_jit
+    elif hasattr(energy, "drop"):
+        score, compiler = scoring.score_batches, allocating_jit
     return Kernels(
         energy=energy,
         number=costs.number_of(energy),
         judges=judge is energy,
         anneal=compiled(annealing.anneal, judge),
-        score=compiled(score, energy, other),
+        score=compiled(score, energy, other, compiler),
         losses=compiled(annealing.find_losses, judge),
         total=judge.total,
         most_loss=most_loss,

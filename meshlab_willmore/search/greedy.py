@@ -40,7 +40,7 @@ from ..guards import add_deviation
 from ..guards.bvh import Bvh, inactive_bvh, refit
 from ..guards.intersections import ANY_ROUND
 from ..mesh.halfedge import NONE, Mesh, flip, is_free
-from ..mesh.jit import inner, jit
+from ..mesh.jit import allocating_inner, inner, jit
 from ..progress import report, stage
 from . import stencil
 from .containers import (
@@ -184,18 +184,26 @@ def _find_changed(found, rules, h):
     return work
 
 
+@allocating_inner
+def _score_many(scorer, h, size):
+    """Score the edges, `size[0]` in number, that the flip which made `h` changes."""
+    edges, gains = np.empty(size[0], np.int32), np.empty(size[0])
+    _find_changed(EdgeList(scorer.mesh, edges, size), scorer.rules, h)
+    _score(scorer, edges, size[0], gains)
+
+
 @inner
 def _flip(state, h):
     """Flip `h`, bring everything up to date, and return about how many edges that has scored."""
     mesh, rules = state.mesh, state.rules
     flip(mesh, h)
     add_deviation(mesh, h)
-    scorer, edges, gains = _Scorer(mesh, state.energy, rules, state.queue), state.edges, state.gains
-    work = _find_changed(EdgeList(mesh, edges, state.size), rules, h)
-    if state.size[0] > len(edges):
-        edges, gains = np.empty(state.size[0], np.int32), np.empty(state.size[0])
-        work = _find_changed(EdgeList(mesh, edges, state.size), rules, h)
-    _score(scorer, edges, state.size[0], gains)
+    scorer = _Scorer(mesh, state.energy, rules, state.queue)
+    work = _find_changed(EdgeList(mesh, state.edges, state.size), rules, h)
+    if state.size[0] <= len(state.edges):
+        _score(scorer, state.edges, state.size[0], state.gains)
+    else:
+        _score_many(scorer, h, state.size)
     if state.bvh.active:
         refit(mesh, state.bvh, h)
         _rescore_freed(state, scorer, h // 3)

@@ -11,7 +11,7 @@ import numpy as np
 from ..guards import add_deviation
 from ..guards.bvh import Bvh
 from ..mesh.halfedge import NONE, Mesh, previous
-from ..mesh.jit import at, inlined, inner, jit
+from ..mesh.jit import allocating_jit, at, inlined, inner, jit
 from ..mesh.parallel import CHUNK
 
 # Numba keeps no kernel on disk that hands on a function of its own module by its plain name.
@@ -235,7 +235,7 @@ def _mark_freed(state, start, stop, value):
     return value
 
 
-@jit
+@allocating_jit
 def _list_dirty(state):
     """Put the dirty edges into their list, by number; return how many there are."""
     size, found = 0, np.empty(BLOCK + 1, np.int32)
@@ -326,7 +326,7 @@ def activate(appender, h, _):
     return False
 
 
-@jit
+@allocating_jit
 def _activate_around(changed, start, stop, size):
     """Activate the edges around those from `start` up to `stop`; return the list's new `size`."""
     state = changed.state

@@ -17,7 +17,7 @@ from ..energy import willmore
 from ..energy.angles import AngleSum, radians, rough
 from ..energy.wings import Wing, Wings
 from ..mesh.halfedge import NONE, Diamond, is_free
-from ..mesh.jit import at, generic, inlined, inner
+from ..mesh.jit import allocating_inner, at, generic, inlined, inner
 from ..mesh.points import Point
 from .containers import NEVER
 from .costs import gain_of
@@ -68,7 +68,7 @@ class Batch(NamedTuple):
     gains: np.ndarray
 
 
-@inner
+@allocating_inner
 def _empty_batch():
     return Batch(empty_rows(), np.empty(LANES, np.int32), np.empty((LANES, 3)))
 
@@ -114,7 +114,12 @@ def _judge_batch(state, helpful, count, judge):
 
 def score_batches(state, start, stop):
     """Score the dirty edges from `start` up to `stop`, many at once."""
-    batch, helpful = _empty_batch(), _empty_batch()
+    _score_batches(state, start, stop, energy, judge, _empty_batch(), _empty_batch())
+
+
+@generic
+def _score_batches(state, start, stop, energy, judge, batch, helpful):
+    """Score the dirty edges from `start` up to `stop`, with two empty batches."""
     # Of one type from the start, or the compiler would try several.
     count, queued = np.int64(0), np.int64(0)
     for place in range(start, stop):
@@ -149,7 +154,13 @@ def _note_batch(state, batch, count, energy):
 
 def score_quickly(state, start, stop):
     """Score the dirty edges from `start` up to `stop`, most of them many at once."""
-    batch, count = _empty_batch(), np.int64(0)
+    _score_quickly(state, start, stop, energy, _empty_batch())
+
+
+@generic
+def _score_quickly(state, start, stop, energy, batch):
+    """Score the dirty edges from `start` up to `stop`, with an empty batch."""
+    count = np.int64(0)
     for place in range(start, stop):
         h = state.dirty[at(place)]
         forbid(state, h)
@@ -205,7 +216,7 @@ def _write_outside(rows, place, lane, mesh, side):
     _write(rows, _OUTSIDE + 3 * place, lane, mesh.vertices, mesh.origin[corner])
 
 
-@inner
+@allocating_inner
 def empty_rows():
     """Return rows for `LANES` edges."""
     return np.zeros(_ROWS * LANES)

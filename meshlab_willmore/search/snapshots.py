@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from ..guards.bvh import Bvh, inactive_bvh, refitted
 from ..mesh.halfedge import Mesh
-from ..mesh.jit import jit
+from ..mesh.jit import allocating_jit
 from . import greedy
 from .rules import WORKING, Progress, rest_of
 
@@ -33,7 +33,7 @@ def copy_of(mesh):
     )
 
 
-@jit
+@allocating_jit
 def assign(mesh, other):
     """Give `mesh`, in place, the connectivity of `other`, which has the same vertices."""
     mesh.origin[:] = other.origin

@@ -60,7 +60,7 @@ from ..guards import add_deviation
 from ..guards.bvh import refit
 from ..mesh.build import EDGE_SHIFT, edge_numbers, faces_of
 from ..mesh.halfedge import NONE, apex, flip, following, is_free
-from ..mesh.jit import inner, jit
+from ..mesh.jit import allocating_jit, inner, jit
 from ..progress import report, stage
 from . import greedy, parallel_greedy, regions
 from .chains import ChainState, empty_chain, find_chain, find_ring
@@ -99,7 +99,7 @@ def _queue_edge(mesh, queue, h):
         push(queue, min(h, t))
 
 
-@jit
+@allocating_jit
 def _spread(mesh, marked, hops):
     """Return the mask of the vertices at most `hops` edges away from a marked one."""
     distance = np.where(marked, 0, hops + 1)
@@ -137,7 +137,7 @@ def _mark_diamond(mesh, h, marked):
         marked[mesh.origin[around]] = marked[apex(mesh, around)] = True
 
 
-@jit
+@allocating_jit
 def _doubtful_vertices(mesh, rules):
     """Return the mask of the vertices of the diamonds that another energy would have flipped."""
     doubtful = np.zeros(len(mesh.vertices), np.bool_)

@@ -9,9 +9,14 @@ import sys
 import numpy as np
 import pytest
 from numba.core.caching import NullCache
+from numba.core.errors import TypingError
+from numba.core.runtime import _nrt_python, rtsys
 
 import meshlab_willmore
-from meshlab_willmore.mesh.jit import generic, inlined, inner, jit
+from meshlab_willmore import optimize_flips
+from meshlab_willmore.execution import SEARCHES
+from meshlab_willmore.mesh.jit import allocating_jit, generic, inlined, inner, jit
+from tests import meshes
 
 SCRIPT = """
 import pathlib, meshlab_willmore.optimize
@@ -82,3 +87,36 @@ def test_without_a_place_for_a_cache_kernels_are_compiled_all_the_same(tmp_path)
         check=False,
     )
     assert (run.returncode, run.stdout, run.stderr) == (0, "7.0\n", "")
+
+
+def new_array(count):
+    return np.empty(count)
+
+
+@pytest.mark.heavy
+def test_only_allocating_kernels_may_create_arrays():
+    assert len(compiled_here(allocating_jit(new_array))(2)) == 2
+    with pytest.raises(TypingError, match="Only accept returning of array passed into"):
+        compiled_here(jit(new_array))(2)
+
+
+@pytest.mark.heavy
+def test_kernels_that_count_no_references_leak_none():
+    vertices, faces = meshes.torus(100, 0.3, 8)
+
+    def flip():
+        for search in SEARCHES:
+            optimize_flips(vertices, faces, search=search, sweeps=2, checkintersections=True)
+
+    def held():
+        found = rtsys.get_allocation_stats()
+        return found.alloc - found.free, found.mi_alloc - found.mi_free, sys.getrefcount(faces)
+
+    flip()
+    _nrt_python.memsys_enable_stats()
+    try:
+        before = held()
+        flip()
+        assert held() == before
+    finally:
+        _nrt_python.memsys_disable_stats()

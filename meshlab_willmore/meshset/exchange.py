@@ -79,6 +79,7 @@ def give(ms: pymeshlab.MeshSet, old: MeshSnapshot, new: MeshSnapshot) -> None:
                 lambda target: _reload(target, path, old),
                 old.identity,
                 by_copies=new.is_without_pixels,
+                by_filters=_needs_filters(new) or _needs_filters(old),
             )
 
 
@@ -234,13 +235,21 @@ def _load(ms: pymeshlab.MeshSet, path: Path, snapshot: MeshSnapshot) -> None:
         _load_without_pixels(ms, path, snapshot)
     else:
         _load_with_images(ms, path, snapshot)
-    if selected(snapshot.ply.vertices).any() or selected(snapshot.ply.faces).any():
+    if _has_selection(snapshot):
         # MeshLab counts what is selected after filters only; defaults of others depend on it.
         native.apply(ms, "apply_normal_normalization_per_vertex")
     mesh = ms.current_mesh()
     for attribute in snapshot.attributes:
         _, adder = ATTRIBUTE_METHODS[attribute.kind]
         getattr(mesh, adder)(attribute.values, attribute.name)
+
+
+def _needs_filters(snapshot: MeshSnapshot) -> bool:
+    return bool(snapshot.ply.textures) or _has_selection(snapshot)
+
+
+def _has_selection(snapshot: MeshSnapshot) -> bool:
+    return bool(selected(snapshot.ply.vertices).any() or selected(snapshot.ply.faces).any())
 
 
 def _load_with_images(ms: pymeshlab.MeshSet, path: Path, snapshot: MeshSnapshot) -> None:

@@ -23,6 +23,8 @@ from . import ids, interrupts, native
 
 # A set that has seen more layers than this gives the new mesh a new id.
 _MOST_IDS_TO_REBUILD = 1000
+# The older one of the garbage collector's generations that it collects often.
+_YOUNG = 1
 
 # By set: the ids of the parked layers. Ids are physical in this module.
 _parked: native.PerSet[frozenset[int]] = native.PerSet(frozenset())
@@ -53,6 +55,7 @@ def replace_current(
     reload: Callable[[MeshSet], None],
     identity: Identity,
     by_copies: bool = False,
+    by_filters: bool = False,
 ) -> None:
     """Replace the current layer of `ms` by one that `load` adds.
 
@@ -69,10 +72,14 @@ def replace_current(
         Label, visibility and transform of the new layer.
     by_copies : bool
         Whether `load` uses up more than one id, and notes the others.
+    by_filters : bool
+        Whether `load` or `reload` applies filters.
     """
     old_id = _current_id(ms)
     alone = not by_copies and _is_alone_and_free(ms)
     with interrupts.deferred(), native.without_trace(ms):
+        if not alone or by_filters or _is_moved(identity):
+            native.keep_script(ms)
         next_id = _use_up_id(ms) if alone else None
         if next_id is not None and next_id <= _MOST_IDS_TO_REBUILD:
             try:
@@ -83,6 +90,8 @@ def replace_current(
                 raise
         else:
             if next_id is not None:
+                native.make_current(ms, old_id)
+                delete(ms, next_id)
                 ids.note_used(ms, next_id)
             _add(ms, load)
             ids.note_replaced(ms, old_id, _current_id(ms))
@@ -111,12 +120,19 @@ def _add_placeholder(ms: MeshSet) -> int:
 
 
 def _use_up_id(ms: MeshSet) -> int:
-    """The id that the next layer would have had, which is used up for it."""
+    """The id that the next layer would have had, which is used up for a placeholder."""
     current = _current_id(ms)
-    mesh_id = _add_placeholder(ms)
-    native.apply(ms, "delete_current_mesh")
-    native.make_current(ms, current)
-    return mesh_id
+    next_id = _add_placeholder(ms)
+    if next_id > 1:
+        # Filters will delete it and others.
+        try:
+            native.keep_script(ms)
+        except OSError:
+            native.make_current(ms, current)
+            _park(ms, next_id)
+            ids.note_used(ms, next_id)
+            raise
+    return next_id
 
 
 def _add(ms: MeshSet, load: Callable[[MeshSet], None]) -> None:
@@ -136,8 +152,7 @@ def _add(ms: MeshSet, load: Callable[[MeshSet], None]) -> None:
 def _retire(ms: MeshSet, old_id: int) -> None:
     """Delete the old layer, or park it as long as a `Mesh` object of it is held."""
     if _is_held(ms, old_id):
-        _parked.put(ms, _parked.get(ms) | {old_id})
-        native.show(ms, old_id, False)
+        _park(ms, old_id)
     else:
         delete(ms, old_id)
 
@@ -154,8 +169,12 @@ def _identify(ms: MeshSet, identity: Identity) -> None:
     label, visible, transform = identity
     native.current_mesh(ms).set_label(label)
     native.show(ms, _current_id(ms), visible)
-    if not np.array_equal(transform, np.eye(4)):
+    if _is_moved(identity):
         native.apply(ms, "set_matrix", transformmatrix=transform, compose=False, freeze=False)
+
+
+def _is_moved(identity: Identity) -> bool:
+    return not np.array_equal(identity.transform, np.eye(4))
 
 
 def _current_id(ms: MeshSet) -> int:
@@ -163,6 +182,11 @@ def _current_id(ms: MeshSet) -> int:
 
 
 # --- parked layers -----------------------------------------------------------------------------
+
+
+def _park(ms: MeshSet, mesh_id: int) -> None:
+    _parked.put(ms, _parked.get(ms) | {mesh_id})
+    native.show(ms, mesh_id, False)
 
 
 def parked(ms: MeshSet) -> frozenset[int]:
@@ -215,10 +239,15 @@ def sweep(ms: MeshSet) -> None:
 
 
 def _is_held(ms: MeshSet, mesh_id: int) -> bool:
-    """Whether a `Mesh` object of this layer is alive, apart from garbage."""
+    """Whether a `Mesh` object of this layer is alive, apart from young garbage.
+
+    An older one in garbage counts as held. Its layer is parked, and deleted like all others of
+    objects that are gone.
+    """
     if not _has_wrapper(ms, mesh_id):
         return False
-    gc.collect()
+    # To collect all garbage takes longer than to flip the edges of a mesh of middle size.
+    gc.collect(_YOUNG)
     return _has_wrapper(ms, mesh_id)
 
 

@@ -77,8 +77,13 @@ class PerSet(Generic[T]):
         self._values[id(ms)] = value
 
 
+# The sets whose script must be saved before a filter is applied, see `without_trace`.
+_untraced: PerSet[contextlib.ExitStack | None] = PerSet(None)
+
+
 def apply(ms: MeshSet, name: str, /, **given: Any) -> dict[str, Any]:
     """Apply a native filter."""
+    keep_script(ms)
     with in_order_if_verbose(ms):
         return _own.apply_filter(ms, name, **given)
 
@@ -140,9 +145,31 @@ def kept_working_folder() -> Iterator[None]:
 
 @contextmanager
 def without_trace(ms: MeshSet) -> Iterator[None]:
-    """Native filters inside print nothing and don't stay in the filter script of `ms`."""
-    with _quiet(ms), unrecorded(ms):
-        yield
+    """Filters that `apply` runs on `ms` inside print nothing, and don't stay in its filter script.
+
+    The script is saved before the first of them at the latest (see `keep_script`).
+    """
+    outer = _untraced.get(ms)
+    with _quiet(ms), contextlib.ExitStack() as stack:
+        _untraced.put(ms, stack)
+        try:
+            yield
+        finally:
+            _untraced.put(ms, outer)
+
+
+def keep_script(ms: MeshSet) -> None:
+    """Save the script of a set that is `without_trace` now: filters will be applied.
+
+    Raises
+    ------
+    OSError
+        If PyMeshLab can't write it.
+    """
+    stack = _untraced.get(ms)
+    if stack is not None:
+        _untraced.put(ms, None)
+        stack.enter_context(unrecorded(ms))
 
 
 def script_of(ms: MeshSet) -> bytes:

@@ -174,6 +174,22 @@ def test_a_mesh_in_garbage_does_not_count(bumpy):
     assert native.ids(bumpy) == [0]
 
 
+def test_a_mesh_in_old_garbage_is_parked_until_it_is_collected(bumpy):
+    cycle = [bumpy.current_mesh()]
+    cycle.append(cycle)
+    gc.disable()
+    try:
+        gc.collect()
+        del cycle
+        bumpy.apply_filter(FLIP)
+        assert (native.ids(bumpy), len(bumpy), bumpy.current_mesh_id()) == ([0, 1], 1, 0)
+    finally:
+        gc.enable()
+    gc.collect()
+    bumpy.apply_filter(FLIP)
+    assert (len(native.ids(bumpy)), len(bumpy), bumpy.current_mesh_id()) == (1, 1, 0)
+
+
 def fails_in_its_words(ms):
     ms.apply_filter(FLIP, nope=1)
 

@@ -34,7 +34,7 @@ def test_the_script_of_a_set_with_one_mesh_holds_the_flips_only(bumpy):
     assert script_of(bumpy).count("<filter") == 1
 
 
-def test_a_filter_script_that_cannot_be_kept_is_an_error_beforehand(bumpy, monkeypatch):
+def test_a_filter_script_that_cannot_be_written_is_an_error_beforehand(bumpy, monkeypatch):
     bumpy.set_selection_none()
     before, faces = script_of(bumpy), bumpy.current_mesh().face_matrix()
     monkeypatch.setattr(native._own, "save_filter_script", lambda ms, path: None)
@@ -42,6 +42,41 @@ def test_a_filter_script_that_cannot_be_kept_is_an_error_beforehand(bumpy, monke
         bumpy.apply_filter(FLIP)
     monkeypatch.undo()
     assert script_of(bumpy) == before
+    np.testing.assert_array_equal(bumpy.current_mesh().face_matrix(), faces)
+
+
+def move(ms):
+    ms.set_matrix(transformmatrix=random_transform(), freeze=False)
+
+
+HELPED = {
+    "moved": move,
+    "selected": lambda ms: ms.set_selection_all(),
+    "second id": lambda ms: (ms.add_mesh(ms.current_mesh()), ms.delete_current_mesh()),
+    "beside another": lambda ms: ms.add_mesh(ms.current_mesh()),
+}
+
+
+@pytest.mark.parametrize("prepare", HELPED.values(), ids=HELPED)
+def test_a_script_that_cannot_be_kept_is_an_error_before_helper_filters(
+    bumpy, monkeypatch, prepare
+):
+    prepare(bumpy)
+    before, faces = script_of(bumpy), bumpy.current_mesh().face_matrix()
+    ids, save, calls = [mesh.id() for mesh in bumpy], native._own.save_filter_script, []
+
+    def only_once(ms, path):
+        """The first time the script is read for the step that is noted."""
+        calls.append(path)
+        if len(calls) == 1:
+            save(ms, path)
+
+    monkeypatch.setattr(native._own, "save_filter_script", only_once)
+    with pytest.raises(pymeshlab.PyMeshLabException, match="filter script could not be written"):
+        bumpy.apply_filter(FLIP)
+    monkeypatch.undo()
+    assert script_of(bumpy) == before
+    assert [mesh.id() for mesh in bumpy] == ids
     np.testing.assert_array_equal(bumpy.current_mesh().face_matrix(), faces)
 
 

@@ -6,7 +6,7 @@ import os
 import shutil
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from .machine import Problem, RoomError, fault_of, unset, unwritable, write_a_little
@@ -14,17 +14,25 @@ from .machine import Problem, RoomError, fault_of, unset, unwritable, write_a_li
 TEMPORARY = "TMPDIR"
 MIB = 2**20
 _STEP = 1024
+_PREFIX = "meshlab_willmore_"
+# A folder on a disk takes longer to make and remove than a small mesh takes to save.
+_IN_MEMORY = Path("/dev/shm")
+_USUAL_FOLDER = "/tmp"
+_CHOICES = (TEMPORARY, "TEMP", "TMP")
+_MOST_IN_MEMORY = MIB
+_LEAST_FREE_MEMORY = 16 * MIB
 _OTHER_FOLDER = f"export {TEMPORARY}=/a/folder/with/room"
 
 
 @contextmanager
-def temporary_folder(needed: int = 0, mark: str = "") -> Iterator[Path]:
+def temporary_folder(needed: int | None = None, mark: str = "") -> Iterator[Path]:
     """Create a folder among the temporary files, and remove it in the end.
 
     Parameters
     ----------
-    needed : int
-        How many bytes will be written into it, about.
+    needed : int, optional
+        How many bytes will be written into it, about. A small folder is in memory, where the
+        system has a place for it and the user has chosen no other.
     mark : str
         Ends the name of the folder.
 
@@ -34,11 +42,8 @@ def temporary_folder(needed: int = 0, mark: str = "") -> Iterator[Path]:
         There is no such folder, it has less room than that, or it was full in the end. In one line:
         which folder, how much is needed and how much is free.
     """
-    try:
-        name = tempfile.mkdtemp(mark, "meshlab_willmore_")
-    except OSError as error:
-        raise RoomError(str(_no_folder(error))) from error
-    folder = Path(name)
+    folder = _new_folder(needed, mark)
+    needed = needed or 0
     try:
         if shutil.disk_usage(folder).free < needed:
             raise RoomError(str(_no_room(folder, needed)))
@@ -49,6 +54,25 @@ def temporary_folder(needed: int = 0, mark: str = "") -> Iterator[Path]:
         raise RoomError(str(_no_room(folder, needed))) from error
     finally:
         shutil.rmtree(folder, ignore_errors=True)
+
+
+def _new_folder(needed: int | None, mark: str) -> Path:
+    if needed is not None and needed <= _MOST_IN_MEMORY and _may_be_in_memory():
+        with suppress(OSError):
+            return Path(tempfile.mkdtemp(mark, _PREFIX, _IN_MEMORY))
+    try:
+        return Path(tempfile.mkdtemp(mark, _PREFIX))
+    except OSError as error:
+        raise RoomError(str(_no_folder(error))) from error
+
+
+def _may_be_in_memory() -> bool:
+    """Whether the user has chosen no folder for temporary files, and memory has room for them."""
+    try:
+        is_chosen = any(map(os.environ.get, _CHOICES)) or tempfile.gettempdir() != _USUAL_FOLDER
+        return not is_chosen and shutil.disk_usage(_IN_MEMORY).free >= _LEAST_FREE_MEMORY
+    except OSError:
+        return False
 
 
 def _is_full(folder: Path) -> bool:

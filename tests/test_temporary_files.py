@@ -20,6 +20,53 @@ def test_a_temporary_folder_is_removed_in_the_end():
     assert not folder.exists()
 
 
+@pytest.fixture
+def in_memory(monkeypatch, tmp_path):
+    """The folder that stands for memory."""
+    for name in ("TMPDIR", "TEMP", "TMP"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setattr(tempfile, "tempdir", "/tmp")
+    monkeypatch.setattr(temporary_files, "_IN_MEMORY", tmp_path)
+    return tmp_path
+
+
+def place_of(*needed):
+    with temporary_folder(*needed) as folder:
+        return folder.parent
+
+
+def test_a_small_folder_is_in_memory(in_memory):
+    assert place_of(1000) == in_memory
+    assert place_of() == place_of(2**21) == Path("/tmp")
+
+
+@pytest.mark.parametrize("name", ["TMPDIR", "TEMP", "TMP"])
+def test_a_folder_that_the_user_has_chosen_is_taken(in_memory, monkeypatch, name):
+    monkeypatch.setenv(name, "/tmp")
+    assert place_of(1000) == Path("/tmp")
+
+
+def test_a_folder_that_the_program_has_chosen_is_taken(in_memory, monkeypatch, tmp_path_factory):
+    chosen = tmp_path_factory.mktemp("chosen")
+    monkeypatch.setattr(tempfile, "tempdir", str(chosen))
+    assert place_of(1000) == chosen
+
+
+def test_a_small_folder_is_not_in_memory_that_is_full(in_memory, monkeypatch):
+    usage = shutil.disk_usage
+    monkeypatch.setattr(
+        shutil,
+        "disk_usage",
+        lambda path: usage(path)._replace(free=2**23) if path == in_memory else usage(path),
+    )
+    assert place_of(1000) == Path("/tmp")
+
+
+def test_a_small_folder_is_not_in_memory_where_there_is_none(in_memory, monkeypatch):
+    monkeypatch.setattr(temporary_files, "_IN_MEMORY", in_memory / "nowhere")
+    assert place_of(1000) == Path("/tmp")
+
+
 def test_too_little_room_is_an_error_before_anything_is_written():
     with pytest.raises(RoomError) as caught, temporary_folder(2**62):
         raise AssertionError("something was begun")

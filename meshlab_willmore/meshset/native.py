@@ -56,6 +56,9 @@ ERRORS: tuple[type[Exception], ...] = (
     pymeshlab.MissingCompactnessException,
 )
 
+# Bytes of a filter script, about.
+_SCRIPT_SIZE = 10_000
+
 T = TypeVar("T")
 
 
@@ -174,7 +177,7 @@ def keep_script(ms: MeshSet) -> None:
 
 def script_of(ms: MeshSet) -> bytes:
     """The filter script of `ms` as XML; characters that can't be read are replaced."""
-    with temporary_folder() as folder:
+    with temporary_folder(_SCRIPT_SIZE) as folder:
         written = _script(ms, folder / "script.mlx")
     # PyMeshLab writes in the encoding of the system, which is not always the UTF-8 of XML.
     return written.decode("utf-8", errors="replace").encode("utf-8")
@@ -183,7 +186,7 @@ def script_of(ms: MeshSet) -> bytes:
 @contextmanager
 def unrecorded(ms: MeshSet) -> Iterator[None]:
     """Native filters inside don't stay in the filter script of `ms`."""
-    with temporary_folder() as folder:
+    with temporary_folder(_SCRIPT_SIZE) as folder:
         path = folder / "script.mlx"
         before = _script(ms, path)
         try:

@@ -4,8 +4,9 @@ The mesh is loaded from PyMeshLab's own PLY (see `ply`) in a temporary folder:
 ``pymeshlab.Mesh(...)`` takes no selection, faux edges, texture images or radii, and with `add_mesh`
 it takes three times as long, because both compute normals, which the file holds. Custom attributes
 are added by the `Mesh` methods afterwards, because PyMeshLab 2025.7 crashes on attributes of a mesh
-that `add_mesh` copied. A comparison finds what PyMeshLab might drop: first with a small part of the
-mesh in a set of its own, before the user's set is changed, and then with the whole mesh.
+that `add_mesh` copied. A comparison finds what PyMeshLab might drop: with the whole mesh, and
+before the user's set is changed with a small part in a set of its own, where no mesh of the same
+kind has come through before.
 """
 
 from __future__ import annotations
@@ -45,6 +46,13 @@ _SAVED_IMAGE = "meshlab_willmore.png"
 _ONE_PIXEL = b"P1 1 1 0\n"
 
 
+# What a mesh of numbers has: columns of vertices and faces, and whether it has edges.
+_Kind = tuple[tuple, tuple, bool]
+
+# Of these kinds a part came through.
+_came_through: set[_Kind] = set()
+
+
 def give(ms: pymeshlab.MeshSet, old: MeshSnapshot, new: MeshSnapshot) -> None:
     """Replace the current mesh of `ms` by the mesh `new`.
 
@@ -65,14 +73,11 @@ def give(ms: pymeshlab.MeshSet, old: MeshSnapshot, new: MeshSnapshot) -> None:
     """
     with temporary_folder(_size(new)) as folder:
         path = _mesh_path(folder, new.ply.textures)
-        part_path = path.with_name(_PART_FILE)
-        part = _part(new)
         _write_images(path.parent, new)
-        _write(part_path, part)
-        _write(path, new)
+        written = _write(path, new)
         with native.kept_working_folder():
             _leave_the_users_files(path.parent, new.ply.textures)
-            _load_whole(pymeshlab.MeshSet(), part_path, part)
+            _try_a_part(path.with_name(_PART_FILE), new, written)
             layers.replace_current(
                 ms,
                 lambda target: _load_whole(target, path, new),
@@ -111,7 +116,28 @@ def with_faces(old: MeshSnapshot, faces: np.ndarray, corners: np.ndarray) -> Mes
         changed["texcoord"] = wedges[corners.ravel()].reshape(-1, 6)
     records = _with_columns(old.ply.faces, changed)
     normals = vertex_normals(old.vertices, faces, old.normals)
-    return old._replace(ply=old.ply._replace(faces=records), normals=normals)
+    return old._replace(faces=faces, ply=old.ply._replace(faces=records), normals=normals)
+
+
+def _try_a_part(path: Path, whole: MeshSnapshot, written: ply.PlyMesh) -> None:
+    """Load a small part in a set of its own, and raise if something of it was lost.
+
+    Of meshes that differ in numbers only, the first one of a process is tried.
+    """
+    has_names = whole.ply.textures or whole.images or whole.attributes
+    kind = None if has_names else _kind(written)
+    if kind in _came_through:
+        return
+    part = _part(whole)
+    _write(path, part)
+    _load_whole(pymeshlab.MeshSet(), path, part)
+    if kind is not None:
+        _came_through.add(kind)
+
+
+def _kind(mesh: ply.PlyMesh) -> _Kind:
+    vertices, faces = (tuple(records.dtype.descr) for records in (mesh.vertices, mesh.faces))
+    return vertices, faces, len(mesh.edges) > 0
 
 
 def _part(whole: MeshSnapshot) -> MeshSnapshot:
@@ -126,6 +152,8 @@ def _part(whole: MeshSnapshot) -> MeshSnapshot:
     edges = renumbered[3 * len(faces) :].reshape(-1, 2)
     indices = {"v": used, "f": kept}
     return whole._replace(
+        vertices=whole.vertices[used],
+        faces=faces["vertex_indices"],
         ply=whole.ply._replace(vertices=whole.ply.vertices[used], faces=faces, edges=edges),
         normals=whole.normals[used],
         attributes=[a._replace(values=a.values[indices[a.kind[0]]]) for a in whole.attributes],
@@ -140,8 +168,14 @@ def _first_and_flagged(records: np.ndarray) -> np.ndarray:
     return np.union1d(first, np.flatnonzero(records["flags"])[:_PART_SIZE])
 
 
-def _write(path: Path, snapshot: MeshSnapshot) -> None:
-    """Write the PLY. It names the images; flags are left out if none is set."""
+def _write(path: Path, snapshot: MeshSnapshot) -> ply.PlyMesh:
+    """Write the PLY. It names the images; flags are left out if none is set.
+
+    Returns
+    -------
+    ply.PlyMesh
+        What was written.
+    """
     mesh = snapshot.ply
     normals = dict(zip(_NORMAL, snapshot.normals.T, strict=True))
     carried = mesh._replace(
@@ -150,6 +184,7 @@ def _write(path: Path, snapshot: MeshSnapshot) -> None:
         textures=tuple(map(_file_names(mesh.textures).__getitem__, mesh.textures)),
     )
     ply.write(path, carried)
+    return carried
 
 
 def _with_columns(records: np.ndarray, columns: dict[str, np.ndarray]) -> np.ndarray:
@@ -290,14 +325,13 @@ def _lost(ms: pymeshlab.MeshSet, snapshot: MeshSnapshot) -> list[str]:
     names, face_names = vertices.dtype.names or (), faces.dtype.names or ()
     copied = snapshot.is_without_pixels
     checks = {
-        "vertex positions": lambda: all(
-            _same(column, vertices[axis])
-            for column, axis in zip(mesh.vertex_matrix().T, "xyz", strict=True)
-        ),
-        "faces": lambda: _same(mesh.face_matrix(), faces["vertex_indices"]),
+        "vertex positions": lambda: _same(mesh.vertex_matrix(), snapshot.vertices),
+        "faces": lambda: _same(mesh.face_matrix(), snapshot.faces),
         "edges": lambda: _same(mesh.edge_matrix(), snapshot.ply.edges),
-        "vertex selection": lambda: _same(mesh.vertex_selection_array(), selected(vertices)),
-        "face selection": lambda: _same(mesh.face_selection_array(), selected(faces)),
+        "vertex selection": lambda: np.array_equal(
+            mesh.vertex_selection_array(), selected(vertices)
+        ),
+        "face selection": lambda: np.array_equal(mesh.face_selection_array(), selected(faces)),
         # A copy from another set has them in any case.
         "vertex colours": lambda: copied or mesh.has_vertex_color() == ("red" in names),
         "vertex scalars": lambda: copied or mesh.has_vertex_scalar() == ("quality" in names),
@@ -316,10 +350,14 @@ def _lost(ms: pymeshlab.MeshSet, snapshot: MeshSnapshot) -> list[str]:
 
 
 def _same(left: np.ndarray, right: np.ndarray) -> bool:
-    # PyMeshLab's matrices are stored by columns. Only texture coordinates can be NaN, and a search
-    # for NaN takes longer than the comparison.
-    right = np.asfortranarray(right)
-    is_float = np.issubdtype(right.dtype, np.floating)
+    """Whether two matrices are equal; not-a-numbers are."""
+    # PyMeshLab's matrices are stored by columns.
+    return left.shape == right.shape and all(map(_same_column, left.T, right.T))
+
+
+def _same_column(left: np.ndarray, right: np.ndarray) -> bool:
+    # Only texture coordinates can be NaN, and a search for NaN takes longer than the comparison.
+    is_float = right.dtype.kind == "f"
     return np.array_equal(left, right) or (is_float and np.array_equal(left, right, equal_nan=True))
 
 

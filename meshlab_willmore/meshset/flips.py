@@ -24,10 +24,18 @@ from ..options import (
     Option,
 )
 from ..presets import FULL_DIAGONAL, PRESETS, conflict, decided_by
+from ..results import FlipResult
 from . import edge_flags, exchange, ids, interrupts, native
 from .filter import Filter, current_surface
 from .parameters import Parameter
-from .snapshot import take
+from .snapshot import (
+    MeshSnapshot,
+    Surface,
+    can_be_saved_late,
+    shown_losses,
+    surface_of,
+    take,
+)
 
 # --- parameters --------------------------------------------------------------------------------
 
@@ -98,32 +106,29 @@ _PARAMETERS = tuple(
 )
 
 
+_NO_EDGES = np.empty((0, 2), np.int32)
+
 # --- the action --------------------------------------------------------------------------------
 
 
 def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any], str]:
-    from ..optimize import optimize_flips
-
     start = time.perf_counter()
+    # A variable with the mesh would keep it, also in an exception that a caller keeps.
     current_surface(ms)
-    snapshot = take(ms)
-    if snapshot.unsupported and not values["allowloss"]:
-        raise pymeshlab.PyMeshLabException(
-            f"The mesh has data that would be lost: {'; '.join(snapshot.unsupported)}. "
-            "Nothing was changed. allowloss=True goes ahead without them."
-        )
-    left_out = {SELECTION.name, ALLOWLOSS.name, *_barred(values)}
-    given = {p.name: p.core_value(values[p.name]) for p in _PARAMETERS if p.name not in left_out}
-    given[MAXDEVIATION.name] = _length(given[MAXDEVIATION.name], snapshot.vertices)
-    with interrupts.preserved():
-        result = optimize_flips(
-            snapshot.vertices,
-            snapshot.faces,
-            selected_faces=snapshot.selected_faces if values["selection"] else None,
-            locked_edges=edge_flags.fixed_edges(snapshot),
-            wedge_uv=snapshot.wedge_uv,
-            **given,
-        )
+    if can_be_saved_late(ms):
+        surface = surface_of(ms.current_mesh())
+        _refuse(shown_losses(ms.current_mesh()), values)
+        result = _flipped(surface, _NO_EDGES, values)
+        if result.flips:
+            snapshot = take(ms, late=surface)
+            _refuse(snapshot.unsupported, values)
+            fixed = edge_flags.fixed_edges(snapshot)
+            if len(fixed):
+                result = _flipped(snapshot, fixed, values)
+    else:
+        snapshot = take(ms)
+        _refuse(snapshot.unsupported, values)
+        result = _flipped(snapshot, edge_flags.fixed_edges(snapshot), values)
     if result.flips:
         flipped = exchange.with_faces(snapshot, result.faces, result.corners)
         exchange.give(ms, snapshot, flipped)
@@ -145,6 +150,35 @@ def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any]
         "mesh_id": ids.logical_id(ms, native.id_of(native.current_mesh(ms))),
     }
     return returned, f"{result.flips} Willmore edge flips performed in {seconds:.2f} sec."
+
+
+def _refuse(unsupported: list[str], values: dict[str, Any]) -> None:
+    """Raise if data would be lost, and the caller has not allowed it."""
+    if unsupported and not values["allowloss"]:
+        raise pymeshlab.PyMeshLabException(
+            f"The mesh has data that would be lost: {'; '.join(unsupported)}. "
+            "Nothing was changed. allowloss=True goes ahead without them."
+        )
+
+
+def _flipped(
+    surface: Surface | MeshSnapshot, fixed: np.ndarray, values: dict[str, Any]
+) -> FlipResult:
+    """Flip edges other than the fixed ones."""
+    from ..optimize import optimize_flips
+
+    left_out = {SELECTION.name, ALLOWLOSS.name, *_barred(values)}
+    given = {p.name: p.core_value(values[p.name]) for p in _PARAMETERS if p.name not in left_out}
+    given[MAXDEVIATION.name] = _length(given[MAXDEVIATION.name], surface.vertices)
+    with interrupts.preserved():
+        return optimize_flips(
+            surface.vertices,
+            surface.faces,
+            selected_faces=surface.selected_faces if values["selection"] else None,
+            locked_edges=fixed,
+            wedge_uv=surface.wedge_uv,
+            **given,
+        )
 
 
 def _length(limit: float | Percentage, vertices: np.ndarray) -> float:

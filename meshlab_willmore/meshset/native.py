@@ -102,6 +102,11 @@ def load(ms: MeshSet, path: Path) -> None:
         _own.load_new_mesh(ms, str(absolute))
 
 
+def save(ms: MeshSet, path: Path, **options: bool) -> None:
+    """Save the current mesh, which is noted to have the name of that file then."""
+    _own.save_current_mesh(ms, str(path), **options)
+
+
 def make_current(ms: MeshSet, mesh_id: int | None) -> None:
     """Make a layer the current one, or none."""
     _own.set_current_mesh(ms, NO_LAYER if mesh_id is None else mesh_id)

@@ -3,6 +3,11 @@
 The mesh is read from PyMeshLab's own PLY (see `ply`): no method gives faux or selected edges,
 texture indices or radii, nor whether there are any (`polygonal_face_list` takes three times as long
 as the file). Custom attributes are read by the methods of `Mesh`, under their real names.
+
+PyMeshLab notes the name of the file with a mesh that it saves, and nothing puts the old name back.
+So a copy is saved, which takes longer than the file; but of a large mesh of little else than
+positions and faces the mesh itself, once there are flips: its name is that of another temporary
+file soon after in any case. What flips depend on is read by the methods of `Mesh` before.
 """
 
 from __future__ import annotations
@@ -25,6 +30,9 @@ MESH_FILE = "mesh.ply"
 # The bit of a selected element, the same in the flags of vertices and faces.
 _SELECTED = 0x20
 
+# To copy a smaller mesh takes no time that counts.
+LEAST_TO_SAVE_LATE = 10_000
+
 _BYTES_OF_VERTEX = 28
 _BYTES_OF_FACE = 17
 _LONGEST_NAME = 255
@@ -46,11 +54,27 @@ ATTRIBUTE_METHODS = {
 }
 
 
+class Surface(NamedTuple):
+    """What flips depend on, of a mesh without textures and polygons.
+
+    The attributes are those of a `MeshSnapshot`.
+    """
+
+    vertices: np.ndarray
+    faces: np.ndarray
+    selected_faces: np.ndarray
+    wedge_uv: None = None
+
+
 class MeshSnapshot(NamedTuple):
     """Everything that PyMeshLab shows of a mesh.
 
     Attributes
     ----------
+    vertices : (n, 3) float64 ndarray
+        The positions, as in `ply`.
+    faces : (m, 3) int32 ndarray
+        The corners of the faces, as in `ply`.
     ply : PlyMesh
         Positions, faces, flags, colours, scalars, radii, texture coordinates, names of textures.
     normals : (n, 3) float64 ndarray
@@ -65,23 +89,14 @@ class MeshSnapshot(NamedTuple):
         Data of the mesh that PyMeshLab can't put on a new one, as phrases.
     """
 
+    vertices: np.ndarray
+    faces: np.ndarray
     ply: ply.PlyMesh
     normals: np.ndarray
     attributes: list[Attribute]
     images: dict[str, pymeshlab.Image]
     identity: layers.Identity
     unsupported: list[str]
-
-    @property
-    def vertices(self) -> np.ndarray:
-        """(n, 3) float64, a copy."""
-        fields = self.ply.vertices
-        return np.column_stack((fields["x"], fields["y"], fields["z"]))
-
-    @property
-    def faces(self) -> np.ndarray:
-        """(m, 3) int32, a copy: entries of the records start at odd addresses."""
-        return np.ascontiguousarray(self.ply.faces["vertex_indices"])
 
     @property
     def wedge_uv(self) -> np.ndarray | None:
@@ -108,32 +123,75 @@ class MeshSnapshot(NamedTuple):
         return selected(self.ply.faces)
 
 
-def take(ms: pymeshlab.MeshSet) -> MeshSnapshot:
-    """Read the current mesh of `ms`; nothing of `ms` changes.
+def can_be_saved_late(ms: pymeshlab.MeshSet) -> bool:
+    """Whether the current mesh is large, and has no data that a `Surface` needs but polygons."""
+    mesh = ms.current_mesh()
+    has_mapping = mesh.has_wedge_tex_coord() or mesh.has_vertex_tex_coord()
+    return (
+        mesh.face_number() >= LEAST_TO_SAVE_LATE
+        and not (has_mapping or mesh.texture_number())
+        and not _attribute_keys(ms)
+    )
 
-    The current mesh must have faces and be compact, as it is after every filter.
+
+def surface_of(mesh: pymeshlab.Mesh) -> Surface:
+    """Read what flips depend on; nothing of `mesh` changes."""
+    return Surface(
+        np.ascontiguousarray(mesh.vertex_matrix()),
+        np.ascontiguousarray(mesh.face_matrix(), np.int32),
+        mesh.face_selection_array(),
+    )
+
+
+def take(ms: pymeshlab.MeshSet, late: Surface | None = None) -> MeshSnapshot:
+    """Read the current mesh of `ms`, which must have faces and be compact.
+
+    Meshes are compact after every filter.
+
+    Parameters
+    ----------
+    ms : pymeshlab.MeshSet
+        Without `late` nothing of it changes.
+    late : Surface, optional
+        What was read of the mesh before, if that is to be saved itself: PyMeshLab notes the name of
+        the file with it. See `can_be_saved_late`.
     """
     native.forget_failures()
     mesh = ms.current_mesh()
-    attribute_keys = [k for k in ms.filter_parameter_values("ply") if k.startswith("__ca_")]
-    with _copied(mesh) as (copy, folder):
+    attribute_keys = _attribute_keys(ms)
+    with _copied(mesh) if late is None else _itself(ms) as (source, folder):
         path = folder / MESH_FILE
-        copy.save_current_mesh(str(path), save_textures=False, **_save_flags(mesh))
+        native.save(source, path, save_textures=False, **_save_flags(mesh))
         records = ply.read(path)
-        attributes = _take_attributes(mesh, _attribute_names(copy, folder, attribute_keys))
-        textures = records.textures or _unmapped_textures(copy, folder)
+        attributes = _take_attributes(mesh, _attribute_names(source, folder, attribute_keys))
+        textures = records.textures or _unmapped_textures(source, folder)
     edges = mesh.edge_matrix().astype(np.int32)
     records = records._replace(edges=edges, textures=textures)
     images = mesh.textures()
     unsupported = [
-        *_curvatures(mesh),
+        *shown_losses(mesh),
         *_lost_digits(records),
         *_lost_names(records.textures, images),
     ]
     if len(attributes) < len(attribute_keys):
         unsupported.append("custom attributes with odd names")
-    normals = mesh.vertex_normal_matrix()
-    return MeshSnapshot(records, normals, attributes, images, layers.identity_of(mesh), unsupported)
+    return MeshSnapshot(
+        np.column_stack([records.vertices[axis] for axis in "xyz"])
+        if late is None
+        else late.vertices,
+        # Entries of the records start at odd addresses.
+        np.ascontiguousarray(records.faces["vertex_indices"]) if late is None else late.faces,
+        records,
+        mesh.vertex_normal_matrix(),
+        attributes,
+        images,
+        layers.identity_of(mesh),
+        unsupported,
+    )
+
+
+def _attribute_keys(ms: pymeshlab.MeshSet) -> list[str]:
+    return [key for key in native.defaults(ms, "ply") if key.startswith("__ca_")]
 
 
 @contextmanager
@@ -141,8 +199,15 @@ def _copied(mesh: pymeshlab.Mesh) -> Iterator[tuple[pymeshlab.MeshSet, Path]]:
     """A copy of `mesh` in a set of its own, whose file name saving may change, and a folder."""
     with temporary_folder(_least_size(mesh)) as folder:
         copy = pymeshlab.MeshSet()
-        copy.add_mesh(mesh, "copy")
+        native.add(copy, mesh, "copy")
         yield copy, folder
+
+
+@contextmanager
+def _itself(ms: pymeshlab.MeshSet) -> Iterator[tuple[pymeshlab.MeshSet, Path]]:
+    """The set itself, which prints nothing meanwhile, and a folder."""
+    with temporary_folder(_least_size(ms.current_mesh())) as folder, native.without_trace(ms):
+        yield ms, folder
 
 
 def _least_size(mesh: pymeshlab.Mesh) -> int:
@@ -185,7 +250,7 @@ def _attribute_names(
         return []
     _delete_all(copy)
     path = folder / "attributes.ply"
-    copy.save_current_mesh(str(path), save_textures=False, **dict.fromkeys(keys, True))
+    native.save(copy, path, save_textures=False, **dict.fromkeys(keys, True))
     header = path.read_bytes().decode("utf-8", "surrogateescape")
     # A dict is an ordered set: an attribute called x has the name of the coordinate in the header.
     names: dict[tuple[str, str], None] = {}
@@ -214,7 +279,7 @@ def _unmapped_textures(copy: pymeshlab.MeshSet, folder: Path) -> tuple[str, ...]
     _delete_all(copy)
     native.apply(copy, "compute_texcoord_by_function_per_wedge")
     path = folder / "textures.ply"
-    copy.save_current_mesh(str(path), save_textures=False)
+    native.save(copy, path, save_textures=False)
     return ply.read(path).textures
 
 
@@ -223,11 +288,15 @@ def _delete_all(copy: pymeshlab.MeshSet) -> None:
     native.apply(copy, "meshing_remove_selected_vertices")
 
 
-def _curvatures(mesh: pymeshlab.Mesh) -> Iterator[str]:
-    for element in ("vertex", "face"):
-        with native.muted(), suppress(pymeshlab.MissingComponentException):
-            getattr(mesh, f"{element}_curvature_principal_dir1_matrix")()
-            yield f"the principal curvature directions per {element}"
+def shown_losses(mesh: pymeshlab.Mesh) -> list[str]:
+    """What methods of `mesh` show that PyMeshLab can't put on a new mesh, as phrases."""
+    found = []
+    with native.muted():
+        for element in ("vertex", "face"):
+            with suppress(pymeshlab.MissingComponentException):
+                getattr(mesh, f"{element}_curvature_principal_dir1_matrix")()
+                found.append(f"the principal curvature directions per {element}")
+    return found
 
 
 def _lost_digits(records: ply.PlyMesh) -> Iterator[str]:

@@ -8,6 +8,7 @@ import pymeshlab
 import pytest
 
 import meshlab_willmore
+from meshlab_willmore.meshset import snapshot
 from tests import meshes
 
 SAMPLES = Path(pymeshlab.__file__).parent / "tests" / "sample_meshes"
@@ -20,6 +21,14 @@ def registered():
     meshlab_willmore.register()
     yield
     meshlab_willmore.register()
+
+
+@pytest.fixture(params=["early", "late"])
+def saved(request, monkeypatch):
+    """When a mesh that may be saved late is saved: before its flips by a copy, or after them."""
+    least = {"early": 10**9, "late": 0}[request.param]
+    monkeypatch.setattr(snapshot, "LEAST_TO_SAVE_LATE", least)
+    return request.param
 
 
 def set_of(vertices, faces, **more):

@@ -19,6 +19,12 @@ from tests.meshset.contents import (
 )
 
 
+@pytest.fixture(autouse=True)
+def none_came_through(monkeypatch):
+    """Each mesh is the first of its kind in the process."""
+    monkeypatch.setattr(exchange, "_came_through", set())
+
+
 def attributes_of(ms):
     """The values of the custom attributes of `rich_set`, by their real names."""
     mesh = ms.current_mesh()
@@ -59,6 +65,7 @@ def test_a_mesh_without_extras_gets_none():
     assert_same_state(state(ms), before)
 
 
+@pytest.mark.usefixtures("saved")
 def test_normals_are_those_that_a_native_flip_leaves(bumpy):
     bumpy.apply_filter(FLIP)
     mesh = bumpy.current_mesh()
@@ -93,6 +100,7 @@ def test_faces_keep_their_slots(bumpy):
 # --- selection ---------------------------------------------------------------------------------
 
 
+@pytest.mark.usefixtures("saved")
 def test_only_selected_faces_change(bumpy):
     bumpy.compute_selection_by_condition_per_face(condselect="fi > 299")
     before = bumpy.current_mesh().face_matrix()
@@ -103,6 +111,7 @@ def test_only_selected_faces_change(bumpy):
     assert (before[:300] != bumpy.current_mesh().face_matrix()[:300]).any()
 
 
+@pytest.mark.usefixtures("saved")
 def test_native_filters_still_see_that_faces_are_selected(bumpy):
     name = "meshing_edge_flip_by_planar_optimization"
     for _ in range(2):
@@ -122,6 +131,7 @@ def selected_edges(ms):
     return {frozenset(map(tuple, edge)) for edge in points.tolist()}
 
 
+@pytest.mark.usefixtures("saved")
 def test_selected_edges_stay_selected_unless_they_are_flipped(bumpy):
     bumpy.compute_selection_crease_per_edge(angledegneg=-5, angledegpos=20)
     vertices, faces = bumpy.current_mesh().vertex_matrix(), bumpy.current_mesh().face_matrix()
@@ -143,6 +153,7 @@ def test_selection_without_selected_faces_flips_nothing(bumpy):
 # --- what can't be carried ---------------------------------------------------------------------
 
 
+@pytest.mark.usefixtures("saved")
 def test_what_would_be_lost_is_an_error_before_anything_changes(bumpy):
     bumpy.compute_curvature_principal_directions_per_vertex()
     before = state(bumpy)
@@ -160,6 +171,7 @@ def test_what_would_be_lost_is_an_error_before_anything_changes(bumpy):
     assert_same_state(after, before)
 
 
+@pytest.mark.usefixtures("saved")
 def test_radii_that_a_float_does_not_hold_are_an_error(tmp_path, monkeypatch):
     """MeshLab's files bring in none, but its filters could."""
     ms = plain_set(tmp_path, radius=True)
@@ -183,6 +195,7 @@ def test_attributes_that_cannot_be_named_are_an_error(bumpy):
     assert bumpy.apply_filter(FLIP, allowloss=True)["flips"] > 0
 
 
+@pytest.mark.usefixtures("saved")
 def test_what_pymeshlab_drops_is_noticed(bumpy, monkeypatch):
     """If PyMeshLab came to read its files otherwise, the mesh would stay as it is."""
     carry = exchange._load
@@ -198,6 +211,7 @@ def test_what_pymeshlab_drops_is_noticed(bumpy, monkeypatch):
     np.testing.assert_array_equal(bumpy.current_mesh().face_matrix(), faces)
 
 
+@pytest.mark.usefixtures("saved")
 def test_what_only_the_whole_mesh_would_lose_is_put_back(bumpy, monkeypatch):
     """As above, where the part that is tried first comes through."""
     bumpy.compute_selection_by_condition_per_vertex(condselect="vi < 99")
@@ -223,6 +237,7 @@ def test_what_only_the_whole_mesh_would_lose_is_put_back(bumpy, monkeypatch):
     np.testing.assert_allclose(found, normals / scale, atol=1e-12)
 
 
+@pytest.mark.usefixtures("saved")
 def test_a_full_disk_changes_nothing(bumpy, monkeypatch, tmp_path):
     def full(*_):
         raise OSError(28, "No space left on device")
@@ -274,12 +289,14 @@ ALONE = {
 
 
 @pytest.mark.parametrize("make", ALONE.values(), ids=ALONE)
+@pytest.mark.usefixtures("saved")
 def test_each_thing_survives_alone_and_nothing_comes_with_it(make, tmp_path):
     ms = make(tmp_path)
     before, shown = take(ms), state(ms)
     assert ms.apply_filter(FLIP)["flips"] > 0
     assert_same_state(state(ms), shown)
     after = take(ms)
+    np.testing.assert_array_equal(after.ply.edges, before.ply.edges)
     assert after.ply.vertices.dtype == before.ply.vertices.dtype
     assert after.ply.vertices.tobytes() == before.ply.vertices.tobytes()
     assert after.ply.faces.dtype == before.ply.faces.dtype
@@ -290,6 +307,7 @@ def test_each_thing_survives_alone_and_nothing_comes_with_it(make, tmp_path):
         np.testing.assert_array_equal(left.values, right.values)
 
 
+@pytest.mark.usefixtures("saved")
 def test_a_plain_mesh_travels_with_positions_faces_and_normals_only(tmp_path, monkeypatch):
     written, write = [], ply.write
 
@@ -300,7 +318,7 @@ def test_a_plain_mesh_travels_with_positions_faces_and_normals_only(tmp_path, mo
     ms = plain_set(tmp_path)
     monkeypatch.setattr(exchange.ply, "write", noted)
     assert ms.apply_filter(FLIP)["flips"] > 0
-    part, whole = written
+    whole, part = written
     for mesh in (part, whole):
         assert mesh.vertices.dtype.names == ("x", "y", "z", "nx", "ny", "nz")
         assert mesh.faces.dtype.names == ("vertex_indices_count", "vertex_indices")
@@ -308,6 +326,7 @@ def test_a_plain_mesh_travels_with_positions_faces_and_normals_only(tmp_path, mo
     assert len(whole.faces) == 596
 
 
+@pytest.mark.usefixtures("saved")
 def test_the_whole_mesh_is_loaded_once(tmp_path, monkeypatch):
     loads, load = [], exchange.native.load
 
@@ -319,6 +338,24 @@ def test_the_whole_mesh_is_loaded_once(tmp_path, monkeypatch):
     monkeypatch.setattr(exchange.native, "load", noted)
     assert ms.apply_filter(FLIP)["flips"] > 0
     assert loads == [(False, 100), (True, 596)]
+
+
+@pytest.mark.parametrize("name", [name for name in ALONE if name != "nothing"])
+def test_a_part_is_tried_of_the_first_mesh_of_each_kind(name, tmp_path, monkeypatch):
+    loads, load = [], exchange.native.load
+
+    def noted(target, path):
+        load(target, path)
+        loads.append(path.name)
+
+    monkeypatch.setattr(exchange.native, "load", noted)
+    tried = []
+    for make in (plain_set, plain_set, ALONE[name], ALONE[name], plain_set):
+        loads.clear()
+        assert make(tmp_path).apply_filter(FLIP)["flips"] > 0
+        tried.append("part.ply" in loads)
+    # An attribute or a texture has a name, which is another one each time.
+    assert tried == [True, False, True, name in ("attribute", "quads"), False]
 
 
 def test_the_part_that_is_tried_has_all_that_the_mesh_has():

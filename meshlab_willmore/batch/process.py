@@ -75,10 +75,11 @@ class Task(NamedTuple):
 
 
 class Phase(NamedTuple):
-    """A message: what a task does from now on, and how many seconds that may take."""
+    """A message: what a task does from now on, how many seconds that may take, and more on it."""
 
     name: str
     seconds: float | None = None
+    text: str = ""
 
 
 class Ended(NamedTuple):

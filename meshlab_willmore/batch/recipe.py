@@ -8,7 +8,6 @@ import pickle
 from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
 
-import cloudpickle
 import pymeshlab
 
 from ..messages import WrongUse, one_line
@@ -23,7 +22,6 @@ class Recipe(NamedTuple):
 
     steps: tuple[Step, ...] | bytes
     source: str
-    is_measured: bool = True
     must_be_measured: bool = False
     dry_run: bool = False
     is_pictured: bool = False
@@ -32,6 +30,8 @@ class Recipe(NamedTuple):
 def recipe_of(script: Script) -> Recipe:
     """What a script or a function does to each mesh; raises `ScriptError` for a faulty script."""
     if callable(script):
+        import cloudpickle
+
         name = getattr(script, "__qualname__", repr(script))
         try:
             return Recipe(cloudpickle.dumps(script), name)

@@ -356,24 +356,13 @@ class Batch:
         return self._pool
 
     def _task(self, job: Job) -> Task:
-        recipe, options = self._recipe, self._options
-        work = Work(
-            job,
-            recipe.steps,
-            recipe.source,
-            options.force,
-            self._begun,
-            recipe.is_measured,
-            recipe.must_be_measured,
-            recipe.dry_run,
-            recipe.is_pictured,
-        )
+        work = Work(job, self._recipe, self._options.force, self._begun)
         folders = tuple({str(place_of(output.path).parent) for output in job.outputs})
-        return Task(_WORK, work, options.timeout, folders)
+        return Task(_WORK, work, self._options.timeout, folders)
 
     def _result(self, key: int, attempted: Attempted) -> Result:
         job, ended, heard = self.jobs[key], attempted.ended, self._heard.pop(key, [])
-        made = ended.value if ended.status == DONE else Made((), (), 0, None, None)
+        made = ended.value if ended.status == DONE else Made()
         is_replaced = ended.status == DONE and job.is_in_place
         size, modified = records.stamp(job.sources) if is_replaced else self._stamps[key]
         status, reason = self._outcome(job, ended)

@@ -1,6 +1,7 @@
 """The work on one job: load its meshes, run the steps, measure, and save what comes out.
 
-`do` is what a worker process does. The command line does the same in its own process for one job.
+`run_job` is the same in a worker process, which calls it by `do`, and in the command line's own
+process.
 """
 
 from __future__ import annotations
@@ -9,8 +10,7 @@ import logging
 import pickle
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager, nullcontext, suppress
-from pathlib import Path
+from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext, suppress
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import pymeshlab
@@ -29,6 +29,7 @@ from ..mlx.steps import Step
 from . import lost_kernels, pages, steplog
 from .jobs import Job
 from .process import Phase
+from .recipe import Recipe
 from .records import Saved, StepResult
 from .steplog import log
 
@@ -61,81 +62,82 @@ class Picture(NamedTuple):
 
 
 class Work(NamedTuple):
-    """The argument of `do`.
+    """What is read and written, and what is done to it.
 
-    Attributes
-    ----------
-    job : Job
-        What is read and written.
-    steps : tuple of Step or bytes
-        The script, or a pickled function of a `MeshSet`.
-    source : str
-        What messages call the script or function.
-    force : bool
-        Whether files from before the batch are replaced.
-    begun : float
-        When the batch began.
-    is_measured, must_be_measured : bool
-        Whether meshes are measured before and after, and whether it is an error if that fails.
-    dry_run : bool
-        Only read and check.
-    is_pictured : bool
-        Whether pictures of meshes are sent.
+    `force` allows to replace files from before the run. Workers of a batch may replace those that
+    are newer than `begun`, when the batch began.
     """
 
     job: Job
-    steps: tuple[Step, ...] | bytes
-    source: str
+    recipe: Recipe
     force: bool = False
-    begun: float = 0.0
-    is_measured: bool = True
-    must_be_measured: bool = False
-    dry_run: bool = False
-    is_pictured: bool = False
+    begun: float | None = None
 
 
 class Made(NamedTuple):
-    """What `do` returns: outputs, what steps returned, how many ran, and measures."""
+    """What `run_job` returns: outputs, what steps returned, how many ran, and measures."""
 
-    outputs: tuple[Saved, ...]
-    returned: tuple[StepResult, ...]
-    steps: int
-    before: dict[str, Any] | None
-    after: dict[str, Any] | None
+    outputs: tuple[Saved, ...] = ()
+    returned: tuple[StepResult, ...] = ()
+    steps: int = 0
+    before: dict[str, Any] | None = None
+    after: dict[str, Any] | None = None
 
 
 def do(work: Work, say: Say) -> Made:
     """Do the work on a job in a process that may crash; `say` sends what happens."""
+    with _noted(say):
+        made = run_job(work, say, is_isolated=True)
+    returned = (one._replace(returned=steplog.for_json(one.returned)) for one in made.returned)
+    return made._replace(returned=tuple(returned))
 
-    def begin(phase: str) -> None:
-        say(Phase(phase))
 
-    with _noted(say), notes_kept() as notes:
-        say(Phase(READING, _time_to_read(work.job)))
-        with memory.limited(memory.reachable()):
-            ms = load(work.job, is_isolated=True)
-        begin(MEASURING)
-        layer = pages.current_layer(ms) if work.job.page else None
-        _send_picture(work, ms, say)
-        with lost_kernels.noted():
-            before = _measures(ms, work)
-            start = time.perf_counter()
-            returned, steps = _steps(work, ms, begin)
-            seconds = time.perf_counter() - start
-        if work.dry_run:
-            return Made((), (), steps, before, None)
-        begin(SAVING)
-        options = SaveOptions(force=work.force, begun=work.begun)
-        outputs = tuple(save_all(ms, work.job, options))
-        begin(MEASURING)
-        after = _measures(ms, work) if work.steps else None
-        _send_picture(work, ms, say)
-        pages.write_page(work.job, layer, ms, work.steps, returned, seconds, notes)
+def run_job(
+    work: Work,
+    say: Say,
+    around: Callable[[Call], AbstractContextManager[object]] = lambda call: nullcontext(),
+    is_isolated: bool = False,
+) -> Made:
+    """Do the work on a job.
+
+    Parameters
+    ----------
+    say : callable
+        Called with a `Phase` for what begins, and with pictures.
+    around : callable
+        Gives a context for each step.
+    is_isolated : bool
+        Whether this process may crash. If not, files are tried in another one before, and meshes
+        are only measured if they must be.
+    """
+    job, recipe = work.job, work.recipe
+    is_measured = (is_isolated or recipe.must_be_measured) and not recipe.dry_run
+    with notes_kept() as notes:
+        say(Phase(READING, _time_to_read(job)))
+        with memory.limited(memory.reachable() if is_isolated else None):
+            ms = load(job, is_isolated)
+        if is_measured:
+            say(Phase(MEASURING))
+        layer = pages.current_layer(ms) if job.page else None
+        _send_picture(recipe, ms, say)
+        with lost_kernels.noted() if is_isolated else nullcontext():
+            before = _measures(ms, recipe) if is_measured else None
+            returned, steps, seconds = _run_steps(recipe, ms, say, around)
+        if recipe.dry_run:
+            return Made(steps=steps)
+        outputs = tuple(_save_all(ms, work, say))
+        if is_measured:
+            say(Phase(MEASURING))
+        after = _measures(ms, recipe) if is_measured and recipe.steps else None
+        _send_picture(recipe, ms, say)
+        if job.page is not None:
+            say(Phase(MEASURING, text=f"writing {job.page}"))
+            pages.write_page(job, layer, ms, recipe.steps, returned, seconds, notes)
     return Made(outputs, tuple(returned), steps, before, after)
 
 
-def _send_picture(work: Work, ms: pymeshlab.MeshSet, say: Say) -> None:
-    if work.is_pictured and (png := pages.current_picture(ms)) is not None:
+def _send_picture(recipe: Recipe, ms: pymeshlab.MeshSet, say: Say) -> None:
+    if recipe.is_pictured and (png := pages.current_picture(ms)) is not None:
         say(Picture(png))
 
 
@@ -163,59 +165,54 @@ def _noted(say: Say) -> Iterator[None]:
         log.removeHandler(sender)
 
 
-def _steps(
-    work: Work, ms: pymeshlab.MeshSet, begin: Callable[[str], None]
-) -> tuple[list[StepResult], int]:
-    """Run the steps; return what those returned that did return something, and how many ran."""
-    if isinstance(work.steps, bytes):
-        begin(work.source)
+def _run_steps(
+    recipe: Recipe,
+    ms: pymeshlab.MeshSet,
+    say: Say,
+    around: Callable[[Call], AbstractContextManager[object]],
+) -> tuple[list[StepResult], int, float]:
+    """Run the steps; return what those returned that did, how many ran, and their seconds."""
+    if isinstance(recipe.steps, bytes):
+        say(Phase(recipe.source))
         start = time.perf_counter()
-        value = pickle.loads(work.steps)(ms)
+        value = pickle.loads(recipe.steps)(ms)
         seconds = time.perf_counter() - start
         returned = value if isinstance(value, dict) else {"value": value}
-        results = [StepResult(1, work.source, seconds, steplog.for_json(returned))]
-        return results if value is not None else [], 1
-    calls = resolve(work.steps, work.source, [mesh.id() for mesh in ms])
-    if work.dry_run:
-        return [], len(calls)
+        results = [StepResult(1, recipe.source, seconds, returned)]
+        return results if value is not None else [], 1, seconds
+    calls = resolve(recipe.steps, recipe.source, [mesh.id() for mesh in ms])
+    if recipe.dry_run:
+        return [], len(calls), 0.0
     with ExitStack() as quiet:
 
         def before(call: Call) -> None:
-            begin(f"step {call.number} ({call.known.name})")
             steplog.log_call(call, len(calls))
+            say(Phase(f"step {call.number} ({call.known.name})"))
+            quiet.enter_context(around(call))
             quiet.enter_context(native.muted())
 
         def after(played: Played) -> None:
             quiet.close()
             steplog.log_result(played)
 
-        done = play(ms, calls, work.source, before, after)
-    results = [
-        StepResult(p.number, p.name, p.seconds, steplog.for_json(p.returned))
-        for p in done
-        if p.returned
-    ]
-    return results, len(calls)
+        done = play(ms, calls, recipe.source, before, after)
+    results = [StepResult(p.number, p.name, p.seconds, p.returned) for p in done if p.returned]
+    return results, len(calls), sum(played.seconds for played in done)
 
 
-def _measures(ms: pymeshlab.MeshSet, work: Work) -> dict[str, Any] | None:
-    """The totals of the current mesh; None if it has none."""
-    if not work.is_measured or work.dry_run or ms.mesh_number() == 0:
+def _measures(ms: pymeshlab.MeshSet, recipe: Recipe) -> dict[str, Any] | None:
+    """How large the current mesh is, and its totals; None if there is none."""
+    if ms.mesh_number() == 0:
         return None
     try:
-        return steplog.for_json(measured(ms))
+        totals = ms.apply_filter("get_willmore_measures")
     except native.ERRORS:
-        if work.must_be_measured:
+        if recipe.must_be_measured:
             raise
         return None
-
-
-def measured(ms: pymeshlab.MeshSet) -> dict[str, Any]:
-    """How large the current mesh is, and its totals."""
-    totals = ms.apply_filter("get_willmore_measures")
     mesh = ms.current_mesh()
     sizes = {"vertices": mesh.vertex_number(), "faces": mesh.face_number()}
-    return {**sizes, **totals}
+    return steplog.for_json({**sizes, **totals})
 
 
 def warm_up(steps: tuple[Step, ...], say: Say) -> None:
@@ -232,7 +229,7 @@ def warm_up(steps: tuple[Step, ...], say: Say) -> None:
 # --- loading and saving ------------------------------------------------------------------------
 
 
-def load(job: Job, is_isolated: bool = False) -> pymeshlab.MeshSet:
+def load(job: Job, is_isolated: bool) -> pymeshlab.MeshSet:
     """The inputs as layers of one set; the first is current, as in `meshlabserver`."""
     ms = pymeshlab.MeshSet()
     for path in job.inputs:
@@ -241,41 +238,40 @@ def load(job: Job, is_isolated: bool = False) -> pymeshlab.MeshSet:
             log.info("input %s (%s)", path, counted(ms.mesh_number(), "layer"))
         else:
             loading.load(ms, path, is_isolated)
-            log.info("input %s (%s)", path, size(ms))
+            log.info("input %s (%s)", path, _size(ms))
     if len(job.inputs) > 1 or any(map(is_project, job.inputs)):
         ms.set_current_mesh(0)
     return ms
 
 
-def save_all(
-    ms: pymeshlab.MeshSet,
-    job: Job,
-    options: SaveOptions,
-    saving: Callable[[Path], Any] = lambda path: nullcontext(),
-) -> Iterator[Saved]:
-    """Save the layer of each output of a job; `saving` gives a context for each."""
+def _save_all(ms: pymeshlab.MeshSet, work: Work, say: Say) -> Iterator[Saved]:
+    """Save the layer of each output of a job."""
+    job = work.job
     if not job.outputs:
         return
+    say(Phase(SAVING))
     if ms.mesh_number() == 0:
         raise OSError(f"cannot write {job.outputs[0].name}: the script leaves no mesh")
-    origins = tuple(dict.fromkeys(path.parent for path in job.sources))
+    options = SaveOptions(
+        force=work.force,
+        begun=work.begun,
+        origins=tuple(dict.fromkeys(path.parent for path in job.sources)),
+        written=set(),
+    )
     layers = iter(_layers(ms, [output for output in job.outputs if not output.is_project]))
     for output in job.outputs:
+        say(Phase(SAVING, text=f"saving {output.path}"))
         how = options._replace(
-            parts=output.parts,
-            is_text=output.is_text,
-            is_single=output.is_single,
-            origins=origins,
+            parts=output.parts, is_text=output.is_text, is_single=output.is_single
         )
         if output.is_project:
-            files = projects.save_project(ms, output.path, how, saving)
+            files = projects.save_project(ms, output.path, how)
             meshes = [*ms]
             what = counted(len(meshes), "layer")
         else:
             ms.set_current_mesh(next(layers))
-            with saving(output.path):
-                files = save(ms, output.path, how)
-            meshes, what = [ms.current_mesh()], size(ms)
+            files = save(ms, output.path, how)
+            meshes, what = [ms.current_mesh()], _size(ms)
         log.info("output %s (%s)", " ".join(map(str, files)), what)
         yield Saved(
             str(output.path),
@@ -305,7 +301,7 @@ def _layers(ms: pymeshlab.MeshSet, outputs: Sequence[Output]) -> Sequence[int]:
     return layers[: len(chosen)]
 
 
-def size(ms: pymeshlab.MeshSet) -> str:
+def _size(ms: pymeshlab.MeshSet) -> str:
     """The size of the current mesh, for messages."""
     mesh = ms.current_mesh()
     return f"{mesh.vertex_number()} vertices, {mesh.face_number()} faces"

@@ -1,4 +1,4 @@
-"""Several inputs of `run`, `flip` and `measure`: the options of a batch, and what it prints."""
+"""The jobs of `run`, `flip` and `measure`: the options of a batch, and what is printed."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ from ..files import STANDARD_OUTPUT
 from ..messages import WrongUse, note
 from . import progress
 from .errors import is_debug, verbosity
+from .one_job import run_here
 from .reports import Reports, check_reports, chosen_reports
 from .scripts import STANDARD_STREAM
 from .text import how_many_failed, in_window, printable
@@ -164,24 +165,37 @@ def files_of_batch() -> dict[str, Path | None]:
     }
 
 
-def is_batch(jobs: Sequence[object]) -> bool:
-    """Whether worker processes are used: for several inputs, or what only a batch has."""
-    is_one = len(jobs) == 1 and chosen_reports().table is None
-    return not is_one or bool(given_options().keys() - {"stop"})
-
-
-def run_batch(
+def run_jobs(
     recipe: Recipe,
     jobs: Sequence[Job],
     line_of: Callable[[Result, Job], str],
     force: bool = False,
     is_listed: bool = False,
+    has_script: bool = False,
 ) -> None:
-    """Run a batch; print a line for each mesh, errors, and the summary where it is wanted.
+    """Do jobs, one in this process or several as a batch; print a line for each mesh.
 
-    On a terminal the lines of meshes that are done are left out, unless they are what is wanted
-    (`is_listed`). Raises `ClickException` in the end if an input failed.
+    The error of one job names its input, unless it is of a script (`has_script`). A batch prints
+    errors, and the summary where it is wanted; on a terminal it leaves out the lines of meshes that
+    are done, unless they are what is wanted (`is_listed`). It raises `ClickException` in the end if
+    an input failed.
     """
+    is_one = len(jobs) == 1 and chosen_reports().table is None
+    if not is_one or given_options().keys() - {"stop"}:
+        _run_batch(recipe, jobs, line_of, force, is_listed)
+        return
+    (job,) = jobs
+    if line := line_of(run_here(recipe, job, force, has_script), job):
+        click.echo(line)
+
+
+def _run_batch(
+    recipe: Recipe,
+    jobs: Sequence[Job],
+    line_of: Callable[[Result, Job], str],
+    force: bool,
+    is_listed: bool,
+) -> None:
     from ..batch.runner import Batch
 
     if verbosity():

@@ -7,7 +7,7 @@ import re
 import signal
 import sys
 import warnings
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import FrameType
@@ -182,17 +182,6 @@ def with_commands(text: str) -> str:
     for function, command in _COMMANDS.items():
         text = text.replace(function, command)
     return text
-
-
-def failure_of(
-    name: str, error: Exception, describe: Callable[[BaseException], str] = one_line
-) -> str:
-    """One line on an input that failed, with its name; a fault of the machine blames no input."""
-    fault = machine.fault_of(error)
-    if fault is not None:
-        return f"{one_line(fault)} ({name} is left out)"
-    text = describe(error)
-    return text if name in text else f"{name}: {text}"
 
 
 def is_debug() -> bool:

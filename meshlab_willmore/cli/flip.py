@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..batch.jobs import Job
-from ..mesh_files import loading
 from ..mesh_files.paths import Output, find_inputs
-from ..messages import WrongUse, note, notes_kept, reason
+from ..messages import WrongUse, note
 from ..options import FILTER
-from . import progress
 from .arguments import (
     SeveralParts,
     check_flip_options,
@@ -22,17 +18,15 @@ from .arguments import (
     mask_option,
     overruled_defaults,
 )
-from .batch import batch_options, is_batch, json_file_option, planned, run_batch
+from .batch import batch_options, json_file_option, planned, run_jobs
 from .completion import files
 from .errors import debug_option, verbose_option
 from .reports import report_option
 from .text import flip_results, printable
 
 if TYPE_CHECKING:
-    import pymeshlab
-
+    from ..batch.jobs import Job
     from ..batch.records import Result
-    from ..mlx.steps import Step
 
 EXAMPLES = """\b
 Examples:
@@ -74,6 +68,9 @@ def command(
     Several meshes are a batch, as in 'run'; then OUT needs a placeholder, such as
     'out/{name}_flipped.ply'.
     """
+    from ..batch.recipe import Recipe
+    from ..mlx.steps import Param, Step
+
     chosen = {name: value for name, value in given.items() if value is not None}
     check_flip_options(chosen)
     for text in overruled_defaults(chosen):
@@ -86,47 +83,8 @@ def command(
     if output.is_project:
         raise WrongUse(f"{target} would be a project; only run writes projects")
     jobs = planned(inputs, [output], False, force)
-    if is_batch(jobs):
-        from ..batch.recipe import Recipe
-
-        run_batch(Recipe((_step(chosen),), "flip"), jobs, _line, force)
-        return
-    (job,) = jobs
-    click.echo(_line(_flip(job, chosen, force), job))
-
-
-def _step(given: dict[str, Any]) -> Step:
-    from ..mlx.steps import Param, Step
-
-    return Step(FILTER, tuple(Param(name, "", value) for name, value in given.items()))
-
-
-def _flip(job: Job, given: dict[str, Any], force: bool) -> Result:
-    """Flip the edges of one mesh in this process."""
-    from ..batch.pages import current_layer, write_page
-    from ..batch.process import DONE
-    from ..batch.records import Result, StepResult
-    from ..mesh_files.saving import SaveOptions, save
-
-    (path,), (output,) = job.inputs, job.outputs
-    with progress.shown(path.name, 1) as status, notes_kept() as notes:
-        status.begin("reading")
-        ms = loading.loaded(path)
-        before = current_layer(ms) if job.page else None
-        status.begin("flipping")
-        with progress.with_details(status, is_part=True):
-            returned = _flipped(ms, path, given)
-        status.end()
-        status.begin(f"saving {output.path}")
-        how = SaveOptions(
-            output.parts, output.is_text, output.is_single, force=force, origins=(path.parent,)
-        )
-        save(ms, output.path, how)
-        step = StepResult(1, FILTER, returned["seconds"], returned)
-        if job.page is not None:
-            status.begin(f"writing {job.page}")
-            write_page(job, before, ms, (_step(given),), (step,), step.seconds, notes)
-    return Result(job.name, DONE, returned=(step,))
+    params = tuple(Param(name, "", value) for name, value in chosen.items())
+    run_jobs(Recipe((Step(FILTER, params),), "flip"), jobs, _line, force)
 
 
 def _line(result: Result, job: Job) -> str:
@@ -134,12 +92,3 @@ def _line(result: Result, job: Job) -> str:
     target = job.outputs[0].path
     line = f"{job.name} -> {target}: {flip_results(returned)}, {returned['seconds']:.1f} s"
     return printable(line)
-
-
-def _flipped(ms: pymeshlab.MeshSet, path: Path, given: dict[str, Any]) -> dict[str, Any]:
-    from ..meshset.native import ERRORS
-
-    try:
-        return ms.apply_filter(FILTER, **given)
-    except ERRORS as error:
-        raise type(error)(f"{path}: {reason(error)}") from error

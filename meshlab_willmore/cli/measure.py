@@ -10,20 +10,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..batch.jobs import Job
-from ..batch.steplog import for_json
-from ..machine import stops_all
-from ..mesh_files import loading
 from ..mesh_files.paths import find_inputs
-from ..messages import WrongUse, one_line, reason
-from . import progress
-from .batch import RECORDS, batch_options, given_options, is_batch, planned, run_batch
+from ..messages import WrongUse, one_line
+from .batch import RECORDS, batch_options, given_options, planned, run_jobs
 from .completion import files
-from .errors import debug_option, failure_of, is_debug
+from .errors import debug_option
 from .scripts import STANDARD_STREAM
 from .text import fitted, table
 
 if TYPE_CHECKING:
+    from ..batch.jobs import Job
     from ..batch.records import Result
 
 EXAMPLES = """\b
@@ -93,16 +89,13 @@ def command(files: tuple[str, ...], json_file: str | None) -> None:
         _measure(planned(inputs, (), False, False), measured)
     finally:
         if as_json:
-            click.echo(json.dumps([for_json(row) for row in measured], indent=2))
+            click.echo(json.dumps(measured, indent=2))
         elif measured:
             click.echo(_table(measured))
 
 
 def _measure(jobs: list[Job], measured: list[dict[str, Any]]) -> None:
     """Measure meshes, and add a row for each to a list, in the order of the jobs."""
-    if not is_batch(jobs):
-        measured.append(_measure_here(*jobs[0].inputs))
-        return
     from ..batch.recipe import Recipe
 
     def keep(result: Result, job: Job) -> str:
@@ -110,26 +103,10 @@ def _measure(jobs: list[Job], measured: list[dict[str, Any]]) -> None:
         return ""
 
     try:
-        run_batch(Recipe((), "measure", must_be_measured=True), jobs, keep, is_listed=True)
+        run_jobs(Recipe((), "measure", must_be_measured=True), jobs, keep, is_listed=True)
     finally:
         order = {job.name: place for place, job in enumerate(jobs)}
         measured.sort(key=lambda row: order[row["file"]])
-
-
-def _measure_here(path: Path) -> dict[str, Any]:
-    """The row of a mesh, measured in this process."""
-    try:
-        with progress.shown("measure", 1) as status:
-            status.next(str(path))
-            ms = loading.loaded(path)
-            with progress.with_details(status):
-                from ..batch.work import measured
-
-                return {"file": str(path), **measured(ms)}
-    except Exception as error:
-        if stops_all(error) or is_debug():
-            raise
-        raise click.ClickException(failure_of(str(path), error, reason)) from error
 
 
 def _table(measured: Iterable[dict[str, Any]]) -> str:

@@ -98,7 +98,7 @@ class Status:
     def sentence(self) -> str:
         """The whole line for a log."""
         part = f" ({self._percent()} %)" if self._fraction else ""
-        if self._total > 1:
+        if self._total > 1 and self._done < self._begun:
             part = f" ({self._done + 1} of {self._total})"
         return f"{self._label}: {self._text()}{part}, {self._seconds()} s so far"
 

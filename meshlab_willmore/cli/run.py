@@ -2,33 +2,19 @@
 
 from __future__ import annotations
 
-import sys
-import time
-from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager, suppress
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import click
 
-from ..batch import steplog
-from ..batch.jobs import Job
-from ..batch.steplog import log
 from ..files import is_stream
 from ..mesh_files.paths import PLACEHOLDERS, Output, find_inputs
-from ..messages import WrongUse, counted, notes_kept, one_line
-from ..signals import killable
-from . import progress, runlog
+from ..messages import WrongUse, counted
+from . import runlog
 from .arguments import LAYER_HELP, force_option, form_options, mask_option, take_outputs
-from .batch import (
-    batch_options,
-    files_of_batch,
-    is_batch,
-    json_file_option,
-    planned,
-    run_batch,
-)
+from .batch import batch_options, files_of_batch, json_file_option, planned, run_jobs
 from .completion import files, scripts
 from .errors import debug_option, verbose_option
 from .reports import report_option
@@ -36,12 +22,9 @@ from .scripts import Script, read_script
 from .text import printable, saved_text, step_results
 
 if TYPE_CHECKING:
-    import pymeshlab
-
-    from ..batch.pages import Layer
+    from ..batch.jobs import Job
+    from ..batch.recipe import Recipe
     from ..batch.records import Result
-    from ..meshset.check import Call
-    from ..meshset.play import Played
     from ..mlx.steps import Step
 
 EXAMPLES = """\b
@@ -70,17 +53,6 @@ Examples:
 # What messages and logs call a run without a script.
 CONVERSION = "conversion"
 _PLACEHOLDERS = ", ".join(f"{{{name}}} ({what})" for name, what in PLACEHOLDERS.items())
-
-
-class RunOptions(NamedTuple):
-    """What is the same for all inputs: the script and its name, and options."""
-
-    source: str
-    steps: tuple[Step, ...]
-    force: bool
-    dry_run: bool
-    # The files that this run has written; changed in place.
-    written: set[Path]
 
 
 class RunCommand(click.Command):
@@ -226,6 +198,8 @@ def command(
     MeshLab saves scripts in the window "Show current filter script", and PyMeshLab does too; a
     short one is shown below. 'meshlab-willmore filters' lists the names, 'lint' checks a script.
     """
+    from ..batch.recipe import Recipe
+
     source = _script_of(script, also)
     if source is None and not (inputs and outputs):
         raise WrongUse(
@@ -235,15 +209,14 @@ def command(
     if source is None and settings:
         raise WrongUse(f"--set {settings[0]}: there is no script whose steps it could change")
     name = source.name if source else CONVERSION
-    steps = _steps(source, settings) if source else ()
-    options = RunOptions(name, steps, force, dry_run, set())
+    recipe = Recipe(_steps(source, settings) if source else (), name, dry_run=dry_run)
     outputs = [output._replace(is_text=as_text, is_single=single) for output in outputs]
     jobs = planned(find_inputs(inputs, takes_projects=True), outputs, layers, force, dry_run)
     used = [Path(name)] if source else []
     used += [file for file in files_of_batch().values() if file and not is_stream(file)]
     runlog.check(log_file, [*used, *(file for job in jobs for file in job.files)])
     with runlog.opened(None if dry_run else log_file, name):
-        _run_all(options, jobs)
+        run_jobs(recipe, jobs, partial(_line, recipe), force, has_script=True)
 
 
 def _script_of(script: str | None, also: str | None) -> Script | None:
@@ -270,132 +243,12 @@ def _steps(source: Script, settings: Sequence[str]) -> tuple[Step, ...]:
     return found.reading.steps
 
 
-def _run_all(options: RunOptions, jobs: Sequence[Job]) -> None:
-    if is_batch(jobs):
-        from ..batch.recipe import Recipe
-
-        recipe = Recipe(options.steps, options.source, dry_run=options.dry_run)
-        run_batch(recipe, jobs, partial(_line, options), options.force)
-        return
-    (job,) = jobs
-    try:
-        click.echo(_run_job(options, job))
-    except Exception as error:
-        # This error is more important than one of the log.
-        with suppress(OSError):
-            log.info("error: %s", one_line(error))
-        raise
-
-
-def _line(options: RunOptions, result: Result, job: Job) -> str:
+def _line(recipe: Recipe, result: Result, job: Job) -> str:
     """What is printed of a mesh that is done."""
-    if options.dry_run:
-        return _intended(job, result.steps)
-    did = _did(options, result.steps)
+    steps = counted(result.steps, "step")
+    if recipe.dry_run:
+        files = " and ".join(output.name for output in job.outputs) or "no file"
+        return printable(f"{job.name}: ok; {steps} to run, then {files} to write")
+    did = "converted" if recipe.source == CONVERSION else steps
     line = f"{job.name} -> {saved_text(result.outputs)}: {did}, {result.seconds:.1f} s"
     return "\n".join([printable(line), *step_results(result.returned)])
-
-
-def _intended(job: Job, steps: int) -> str:
-    """What is printed of a mesh in a dry run."""
-    files = " and ".join(output.name for output in job.outputs) or "no file"
-    return printable(f"{job.name}: ok; {counted(steps, 'step')} to run, then {files} to write")
-
-
-def _did(options: RunOptions, steps: int) -> str:
-    return "converted" if options.source == CONVERSION else counted(steps, "step")
-
-
-def _run_job(options: RunOptions, job: Job) -> str:
-    """Run the script on the inputs of a job; returns the lines to print."""
-    from ..batch.pages import current_layer
-    from ..meshset.check import resolve
-
-    if job.problem is not None:
-        raise job.problem
-    start = time.perf_counter()
-    with notes_kept() as notes:
-        ms = _load(job)
-        calls = resolve(options.steps, options.source, [mesh.id() for mesh in ms])
-        if options.dry_run:
-            return _intended(job, len(calls))
-        before = current_layer(ms) if job.page else None
-        played = play(ms, calls, options.source, Path(job.name).name)
-        saved = _save(ms, job, options)
-        seconds = time.perf_counter() - start
-        if job.page is not None:
-            _write_page(job, before, ms, options, played, notes)
-    line = f"{job.name} -> {saved}: {_did(options, len(calls))}, {seconds:.1f} s"
-    return "\n".join([printable(line), *step_results(played)])
-
-
-def _write_page(
-    job: Job,
-    before: Layer | None,
-    ms: pymeshlab.MeshSet,
-    options: RunOptions,
-    played: Sequence[Played],
-    notes: Sequence[str],
-) -> None:
-    from ..batch.pages import write_page
-    from ..batch.records import StepResult
-
-    results = [StepResult(p.number, p.name, p.seconds, p.returned) for p in played if p.returned]
-    with progress.shown(job.name) as status:
-        status.begin(f"writing {job.page}")
-        seconds = sum(p.seconds for p in played)
-        write_page(job, before, ms, options.steps, results, seconds, notes)
-
-
-def _load(job: Job) -> pymeshlab.MeshSet:
-    from ..batch import work
-
-    with progress.shown(job.name) as status:
-        status.begin("reading")
-        return work.load(job)
-
-
-def play(ms: pymeshlab.MeshSet, calls: Sequence[Call], source: str, label: str) -> list[Played]:
-    """Run the steps; the filters themselves print nothing.
-
-    Errors name the script `source`; the progress bar has the `label`.
-    """
-    from ..meshset import play as steps
-    from ..meshset.native import muted
-
-    # The streams are restored before an error of a step is printed.
-    with progress.shown(label, len(calls)) as status, ExitStack() as quiet:
-
-        def before(call: Call) -> None:
-            status.hide()
-            steplog.log_call(call, len(calls))
-            status.next(call.known.name)
-            sys.stdout.flush()
-            if call.known.is_willmore:
-                quiet.enter_context(progress.with_details(status, is_part=True))
-            else:
-                # No output is begun before the last step has ended.
-                quiet.enter_context(killable())
-            quiet.enter_context(muted())
-
-        def after(played: Played) -> None:
-            quiet.close()
-            status.hide()
-            steplog.log_result(played)
-
-        return steps.play(ms, calls, source, before, after)
-
-
-def _save(ms: pymeshlab.MeshSet, job: Job, options: RunOptions) -> str:
-    """Save the layers of a job's outputs; returns which files were written."""
-    from ..batch import work
-    from ..mesh_files.saving import SaveOptions
-
-    @contextmanager
-    def saving(path: Path) -> Iterator[None]:
-        with progress.shown(job.name) as status:
-            status.begin(f"saving {path}")
-            yield
-
-    how = SaveOptions(force=options.force, written=options.written)
-    return saved_text(work.save_all(ms, job, how, saving))

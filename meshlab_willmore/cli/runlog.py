@@ -30,6 +30,13 @@ class _Handler(logging.StreamHandler):
     def __init__(self, stream: TextIO, name: str) -> None:
         super().__init__(stream)
         self._log_name = name
+        self._is_standard = stream is sys.stdout
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Write a line; on the standard output it comes above the line of the progress."""
+        if self._is_standard:
+            self.setStream(sys.stdout)
+        super().emit(record)
 
     def format(self, record: logging.LogRecord) -> str:
         # A line of the log stays one whatever a file is called.

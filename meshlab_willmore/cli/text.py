@@ -15,7 +15,6 @@ from ..messages import counted, wrapped
 
 if TYPE_CHECKING:
     from ..batch.records import Saved, StepResult
-    from ..meshset.play import Played
 
 # What text fits that is no table.
 WIDTH = 80
@@ -169,9 +168,9 @@ def end_of(text: str, columns: int) -> str:
 # --- what filters returned ---------------------------------------------------------------------
 
 
-def step_results(played: Iterable[Played | StepResult]) -> list[str]:
+def step_results(results: Iterable[StepResult]) -> list[str]:
     """An indented line for each step that returned something."""
-    return [f"  step {p.number}, {p.name}: {_summary(p.returned)}" for p in played if p.returned]
+    return [f"  step {r.number}, {r.name}: {_summary(r.returned)}" for r in results if r.returned]
 
 
 def saved_text(saved: Iterable[Saved]) -> str:

@@ -10,7 +10,6 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Iterator
-from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -149,17 +148,12 @@ def load_project(ms: pymeshlab.MeshSet, path: Path, is_isolated: bool = False) -
                 )
 
 
-def save_project(
-    ms: pymeshlab.MeshSet,
-    path: Path,
-    options: SaveOptions,
-    saving: Callable[[Path], Any] = lambda path: nullcontext(),
-) -> list[Path]:
+def save_project(ms: pymeshlab.MeshSet, path: Path, options: SaveOptions) -> list[Path]:
     """Save all layers of `ms` beside a project, then the project; returns the files, it first.
 
     The mesh of layer i of ``out.mlp`` is ``out_i.ply``, in a folder ``out_i`` if one of its
-    textures has the name of another layer's. `saving` gives a context for each file. Raises
-    `OSError` in one line; then there is no new project, and no new mesh of a layer.
+    textures has the name of another layer's. Raises `OSError` in one line; then there is no new
+    project, and no new mesh of a layer.
     """
     from ..meshset import native
 
@@ -175,10 +169,9 @@ def save_project(
             ms.set_current_mesh(mesh_id)
             file = path.parent / name
             new += [] if os.path.lexists(file) else [file]
-            with saving(file):
-                if file.parent != path.parent:
-                    writable_folder(file.parent)
-                files += save(ms, file, options)
+            if file.parent != path.parent:
+                writable_folder(file.parent)
+            files += save(ms, file, options)
     except OSError:
         for file in new:
             file.unlink(missing_ok=True)

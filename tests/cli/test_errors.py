@@ -73,12 +73,12 @@ def test_wrong_setting_ends_a_batch_and_full_disk_does_not(fault, monkeypatch):
 
 
 def test_measure_blames_no_mesh(monkeypatch):
-    def fail(_):
+    def fail(*_):
         raise FULL
 
-    monkeypatch.setattr("meshlab_willmore.mesh_files.loading.loaded", fail)
+    monkeypatch.setattr("meshlab_willmore.mesh_files.loading.load", fail)
     result = call("measure", cube_file())
-    assert (result.exit_code, result.stderr) == (1, f"Error: {FULL} (cube.ply is left out)\n")
+    assert (result.exit_code, result.stderr) == (1, f"Error: {FULL}\n")
 
 
 def test_compare_blames_no_mesh(monkeypatch):
@@ -95,7 +95,7 @@ def test_machine_warnings_are_notes(monkeypatch):
         warnings.warn("the cache is nowhere; fix it with: a command", MachineWarning, stacklevel=1)
         return play_steps(*arguments)
 
-    monkeypatch.setattr("meshlab_willmore.meshset.play.play", warn)
+    monkeypatch.setattr("meshlab_willmore.batch.work.play", warn)
     result = call("run", script_file(FLIP), "-i", cube_file(), "-o", "out.ply")
     assert result.exit_code == 0
     assert result.stderr == "Note: the cache is nowhere; fix it with: a command\n"

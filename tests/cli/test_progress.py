@@ -265,6 +265,17 @@ def test_progress_bar_on_a_terminal(script, cube):
     assert "%" not in done.stdout
 
 
+def test_log_on_a_terminal_is_printed_above_the_bar(monkeypatch, script, cube):
+    terminal = Terminal()
+    for name in ("stdout", "stderr"):
+        monkeypatch.setattr(sys, name, terminal)
+    main(["run", str(script), "-i", "cube.ply", "-l", "-"], standalone_mode=False)
+    lines = [line.rpartition("\r") for line in terminal.getvalue().split("\n")]
+    logged = [line for _, _, line in lines if line.startswith(("input ", "step ", "  time: "))]
+    assert len(logged) == 5
+    assert "[" in "".join(before for before, _, _ in lines)
+
+
 def test_no_progress_bar_in_a_pipe(script, cube):
     result = call("run", script, "-i", cube)
     assert "\r" not in result.output

@@ -11,6 +11,7 @@ import pytest
 from meshlab_willmore import batch
 from meshlab_willmore.batch import pages, work
 from meshlab_willmore.batch.jobs import Job
+from meshlab_willmore.batch.recipe import Recipe
 from meshlab_willmore.batch.records import Result, StepResult
 from meshlab_willmore.demo.models import Surface
 from meshlab_willmore.mesh_files import loading
@@ -418,7 +419,7 @@ def test_mesh_without_room_for_its_page_is_saved_all_the_same(
         return surface
 
     monkeypatch.setattr(f"meshlab_willmore.{place}", fail_once_it_is_saved)
-    done = work.do(work.Work(job, (), "none", is_pictured=True), heard.append)
+    done = work.do(work.Work(job, Recipe((), "none", is_pictured=True)), heard.append)
     assert [saved.file for saved in done.outputs] == ["out.ply"]
     assert work.Note(f"page.html is not written: {reason}") in heard
     assert listing(".") == ["cube.ply", "out.ply"]
@@ -436,7 +437,7 @@ def test_mesh_without_room_for_its_picture_is_saved_all_the_same(cube, monkeypat
     monkeypatch.setattr("meshlab_willmore.thumbnail.picture", fail)
     heard = []
     job = Job((cube,), (Output("out.ply"),))
-    done = work.do(work.Work(job, (), "none", is_pictured=True), heard.append)
+    done = work.do(work.Work(job, Recipe((), "none", is_pictured=True)), heard.append)
     assert [saved.file for saved in done.outputs] == ["out.ply"]
     notes = [one for one in heard if isinstance(one, work.Note)]
     assert notes == [work.Note("its picture is not written: MemoryError")]

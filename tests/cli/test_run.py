@@ -8,7 +8,7 @@ import numpy as np
 import pymeshlab
 import pytest
 
-from meshlab_willmore.cli import run as run_module
+from meshlab_willmore.batch import work
 
 from .conftest import (
     FLIP,
@@ -187,7 +187,7 @@ def no_step(monkeypatch):
     def fail(*_arguments):
         raise AssertionError("a step ran")
 
-    monkeypatch.setattr(run_module, "play", fail)
+    monkeypatch.setattr(work, "play", fail)
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from meshlab_willmore.cli import run as run_module
+from meshlab_willmore.batch import work
 
 from .conftest import TAUBIN, call, cube_file, listing, script_file
 
@@ -26,7 +26,7 @@ def no_step(monkeypatch):
     def fail(*_arguments):
         raise AssertionError("a step ran")
 
-    monkeypatch.setattr(run_module, "play", fail)
+    monkeypatch.setattr(work, "play", fail)
 
 
 def contents():

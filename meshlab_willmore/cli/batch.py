@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, closing, contextmanager, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
@@ -19,9 +19,10 @@ from ..batch.summary import Summary, duration, failure
 from ..files import STANDARD_OUTPUT
 from ..messages import WrongUse, note
 from . import progress
-from .errors import is_debug, verbosity
+from .errors import is_debug
+from .kept import kept_option, kept_options
 from .one_job import run_here
-from .reports import Reports, check_reports, chosen_reports
+from .reports import Reports, check_reports
 from .scripts import STANDARD_STREAM
 from .text import how_many_failed, in_window, printable
 
@@ -33,8 +34,6 @@ if TYPE_CHECKING:
     from ..batch.runner import Batch
     from ..mesh_files.paths import Input, Output
 
-# Where click keeps the options of a batch that were given.
-_GIVEN = "batch"
 _SIZE = re.compile(r"(\d+(?:\.\d+)?)\s*([KMGT]?)(?:i?B)?", re.IGNORECASE)
 _UNITS = {"": 0, "K": 1, "M": 2, "G": 3, "T": 4}
 _KIB = 1024
@@ -42,17 +41,6 @@ _KIB = 1024
 RECORDS = ".jsonl"
 # Between looks at what workers do.
 _SECONDS = 0.5
-
-
-def _log_file(ctx: click.Context, option: click.Parameter, value: Path | None) -> None:
-    """Keep the file of ``--json``, which may be the standard output."""
-    is_standard = str(value) == STANDARD_STREAM
-    _remember(ctx, option, STANDARD_OUTPUT if is_standard else value)
-
-
-def _remember(ctx: click.Context, option: click.Parameter, value: Any) -> None:
-    if value not in (None, False):
-        ctx.meta.setdefault(_GIVEN, {})[option.name] = value
 
 
 def _bytes(text: str) -> int:
@@ -67,51 +55,51 @@ def _bytes(text: str) -> int:
     return size
 
 
-def _option(*names: str, **given: Any) -> Callable[..., Any]:
-    return click.option(*names, expose_value=False, callback=_remember, **given)
-
-
 _OPTIONS = (
-    _option("--workers", type=click.IntRange(min=1), metavar="N", help="Meshes at a time."),
-    _option(
+    kept_option("--workers", type=click.IntRange(min=1), metavar="N", help="Meshes at a time."),
+    kept_option(
         "--timeout",
         type=click.FloatRange(min=0.0, min_open=True),
         metavar="SECONDS",
         help="The longest time for a mesh; then its worker is killed.",
     ),
-    _option(
+    kept_option(
         "--memory",
         metavar="SIZE",
         help="The most memory for a worker, such as 4G (Linux).",
     ),
-    _option(
+    kept_option(
         "--retries", type=click.IntRange(min=0), metavar="N", help="Try a failed mesh N times more."
     ),
-    _option(
+    kept_option(
         "--resume",
         is_flag=True,
         help="Go on with the batch in the file of --json: skip what it has.",
     ),
-    _option("--retry-failed", is_flag=True, help="As --resume, and do again what failed there."),
-    _option(
+    kept_option(
+        "--retry-failed", is_flag=True, help="As --resume, and do again what failed there."
+    ),
+    kept_option(
         "--stop/--keep-going",
         default=False,
         help="Stop at the first input that fails, or go on with the others (the default).",
     ),
-    _option(
+    kept_option(
         "--shard",
         metavar="I/N",
         help="Only share I of N of the inputs; auto reads SLURM's or Kubernetes' variables.",
     ),
-    _option("--scheduler", metavar="ADDRESS", help="Run on the Dask cluster of this scheduler."),
-    _option("--summary", is_flag=True, help="Print a summary; on a terminal it comes anyway."),
+    kept_option(
+        "--scheduler", metavar="ADDRESS", help="Run on the Dask cluster of this scheduler."
+    ),
+    kept_option("--summary", is_flag=True, help="Print a summary; on a terminal it comes anyway."),
 )
-json_file_option = click.option(
+# With any other option a single job is a batch, too.
+_OF_ONE_JOB = {"debug", "reports", "stop", "verbose"}
+json_file_option = kept_option(
     "--json",
     "log",
     type=click.Path(path_type=Path),
-    expose_value=False,
-    callback=_log_file,
     metavar="FILE.jsonl",
     help="Write a line of JSON for each mesh as it ends: outcome, time, memory, measures. - prints "
     "these lines, and no others.",
@@ -119,21 +107,36 @@ json_file_option = click.option(
 
 
 def batch_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """The options of a batch; a command gets them by `given_options`."""
+    """The options of a batch, which are kept."""
     for option in reversed(_OPTIONS):
         command = option(command)
     return command
 
 
-def given_options() -> dict[str, Any]:
-    """The options of a batch that were given."""
-    given: dict[str, Any] = click.get_current_context().meta.setdefault(_GIVEN, {})
-    return given
+class Plan(NamedTuple):
+    """The jobs of a command, and the page with the table of all."""
+
+    jobs: list[Job]
+    table: Path | None
+
+    def own_files(self) -> dict[str, Path | None]:
+        """The files of the batch itself, by what they are; the standard output is none."""
+        records = _records_file()
+        return {
+            "the table of --report": self.table,
+            "the records of --json": None if records == STANDARD_OUTPUT else records,
+        }
 
 
-def is_resumed() -> bool:
+def _is_resumed() -> bool:
     """Whether an earlier batch goes on, whose outputs exist."""
-    return bool(given_options().keys() & {"resume", "retry_failed"})
+    return bool(kept_options().keys() & {"resume", "retry_failed"})
+
+
+def _records_file() -> Path | None:
+    """The file of ``--json``, which may be the standard output."""
+    file = kept_options().get("log")
+    return STANDARD_OUTPUT if str(file) == STANDARD_STREAM else file
 
 
 def planned(
@@ -142,32 +145,23 @@ def planned(
     layers: bool,
     force: bool,
     dry_run: bool = False,
-) -> list[Job]:
+) -> Plan:
     """The jobs of a command, or those of its shard; see `meshlab_willmore.batch.jobs.plan`."""
-    given = given_options()
-    shard = shard_of(given["shard"]) if "shard" in given else None
-    reports = check_reports(len(inputs) > 1 and not layers, force, shard, is_resumed())
+    shard = shard_of(kept_options()["shard"]) if "shard" in kept_options() else None
+    reports = check_reports(len(inputs) > 1 and not layers, force, shard, _is_resumed())
     if reports != Reports() and not inputs:
         raise WrongUse("--report shows a mesh before and after, and there is no input")
     jobs = plan(
-        inputs, outputs, layers, force, shard, reports.page, not dry_run, is_continued=is_resumed()
+        inputs, outputs, layers, force, shard, reports.page, not dry_run, is_continued=_is_resumed()
     )
-    check_apart(files_of_batch(), jobs)
-    return jobs
-
-
-def files_of_batch() -> dict[str, Path | None]:
-    """The files of the batch itself, by what they are; the standard output is none."""
-    records = given_options().get("log")
-    return {
-        "the table of --report": chosen_reports().table,
-        "the records of --json": None if records == STANDARD_OUTPUT else records,
-    }
+    found = Plan(jobs, reports.table)
+    check_apart(found.own_files(), jobs)
+    return found
 
 
 def run_jobs(
     recipe: Recipe,
-    jobs: Sequence[Job],
+    plan: Plan,
     line_of: Callable[[Result, Job], str],
     force: bool = False,
     is_listed: bool = False,
@@ -180,35 +174,35 @@ def run_jobs(
     are done, unless they are what is wanted (`is_listed`). It raises `ClickException` in the end if
     an input failed.
     """
-    is_one = len(jobs) == 1 and chosen_reports().table is None
-    if not is_one or given_options().keys() - {"stop"}:
-        _run_batch(recipe, jobs, line_of, force, is_listed)
+    is_one = len(plan.jobs) == 1 and plan.table is None
+    if not is_one or kept_options().keys() - _OF_ONE_JOB:
+        _run_batch(recipe, plan, line_of, force, is_listed)
         return
-    (job,) = jobs
+    (job,) = plan.jobs
     if line := line_of(run_here(recipe, job, force, has_script), job):
         click.echo(line)
 
 
 def _run_batch(
     recipe: Recipe,
-    jobs: Sequence[Job],
+    plan: Plan,
     line_of: Callable[[Result, Job], str],
     force: bool,
     is_listed: bool,
 ) -> None:
     from ..batch.runner import Batch
 
-    if verbosity():
+    given, jobs = kept_options(), plan.jobs
+    if "verbose" in given:
         note(
             "-v has no effect in a batch (several meshes, or an option of a batch such as --json); "
             "for the log of a mesh, process it alone"
         )
-    given = given_options()
     summary = Summary()
-    table = None if recipe.dry_run else chosen_reports().table
+    table = None if recipe.dry_run else plan.table
     recipe = recipe._replace(is_pictured=table is not None)
     shown: list[Result] = []
-    prints_json = given.get("log") == STANDARD_OUTPUT
+    prints_json = _records_file() == STANDARD_OUTPUT
     is_shown = is_listed or not (sys.stdout.isatty() or prints_json)
     with ExitStack() as stack:
         options = _options(given, force, stack)
@@ -253,8 +247,7 @@ def _options(given: dict[str, Any], force: bool, stack: ExitStack) -> Any:
     client = None
     if "scheduler" in given:
         client = stack.enter_context(_client(given["scheduler"]))
-    is_continued = is_resumed()
-    if is_continued and "log" not in given:
+    if _is_resumed() and "log" not in given:
         raise WrongUse("--resume needs --json FILE.jsonl, which says what is done")
     return BatchOptions(
         workers=given.get("workers"),
@@ -262,8 +255,8 @@ def _options(given: dict[str, Any], force: bool, stack: ExitStack) -> Any:
         memory=_bytes(given["memory"]) if "memory" in given else None,
         retries=given.get("retries", 0),
         force=force,
-        log=given.get("log"),
-        resume=is_continued,
+        log=_records_file(),
+        resume=_is_resumed(),
         retry_failed="retry_failed" in given,
         stop="stop" in given or is_debug(),
         client=client,

@@ -19,6 +19,7 @@ from .. import machine
 from ..messages import WrongUse, notes_taken_by, one_line
 from ..mlx.steps import ScriptError
 from ..signals import ENDING, handled_by
+from .kept import kept_option, kept_options
 from .text import printable
 
 DOCTOR = " ('meshlab-willmore doctor' shows what is missing)"
@@ -184,47 +185,12 @@ def with_commands(text: str) -> str:
     return text
 
 
+debug_option = kept_option("--debug", is_flag=True, help="Show the whole traceback of an error.")
+
+
 def is_debug() -> bool:
     """Whether errors are shown with their traceback."""
-    return bool(click.get_current_context().meta.get("debug"))
-
-
-def _remember_debug(ctx: click.Context, _option: click.Parameter, value: bool) -> None:
-    # A group and its commands share meta: the option works before and after the command's name.
-    ctx.meta["debug"] = ctx.meta.get("debug", False) or value
-
-
-debug_option = click.option(
-    "--debug",
-    is_flag=True,
-    expose_value=False,
-    callback=_remember_debug,
-    help="Show the whole traceback of an error.",
-)
-
-
-_VERBOSE = "verbose"
-
-
-def verbosity() -> int:
-    """How often --verbose was given to the command."""
-    ctx = click.get_current_context(silent=True)
-    return ctx.meta.get(_VERBOSE, 0) if ctx else 0
-
-
-def _remember_verbosity(ctx: click.Context, _option: click.Parameter, count: int) -> None:
-    ctx.meta[_VERBOSE] = count
-
-
-verbose_option = click.option(
-    "-v",
-    "--verbose",
-    count=True,
-    expose_value=False,
-    callback=_remember_verbosity,
-    help="Print the log of passes and steps on the standard error; -vv: the progress too. Not of a "
-    "batch.",
-)
+    return "debug" in kept_options()
 
 
 # --- streams and signals -----------------------------------------------------------------------

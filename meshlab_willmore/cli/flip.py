@@ -20,7 +20,8 @@ from .arguments import (
 )
 from .batch import batch_options, json_file_option, planned, run_jobs
 from .completion import files
-from .errors import debug_option, verbose_option
+from .errors import debug_option
+from .progress import verbose_option
 from .reports import report_option
 from .text import flip_results, printable
 
@@ -82,9 +83,9 @@ def command(
         raise WrongUse(f"{len(inputs)} inputs need an output with a placeholder, such as {example}")
     if output.is_project:
         raise WrongUse(f"{target} would be a project; only run writes projects")
-    jobs = planned(inputs, [output], False, force)
+    plan = planned(inputs, [output], False, force)
     params = tuple(Param(name, "", value) for name, value in chosen.items())
-    run_jobs(Recipe((Step(FILTER, params),), "flip"), jobs, _line, force)
+    run_jobs(Recipe((Step(FILTER, params),), "flip"), plan, _line, force)
 
 
 def _line(result: Result, job: Job) -> str:

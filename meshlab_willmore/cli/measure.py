@@ -12,9 +12,10 @@ import click
 
 from ..mesh_files.paths import find_inputs
 from ..messages import WrongUse, one_line
-from .batch import RECORDS, batch_options, given_options, planned, run_jobs
+from .batch import RECORDS, Plan, batch_options, planned, run_jobs
 from .completion import files
 from .errors import debug_option
+from .kept import kept_options
 from .scripts import STANDARD_STREAM
 from .text import fitted, table
 
@@ -83,7 +84,7 @@ def command(files: tuple[str, ...], json_file: str | None) -> None:
         raise WrongUse("; ".join(problems))
     as_json = json_file == STANDARD_STREAM
     if json_file is not None and not as_json:
-        given_options()["log"] = Path(json_file)
+        kept_options()["log"] = Path(json_file)
     measured: list[dict[str, Any]] = []
     try:
         _measure(planned(inputs, (), False, False), measured)
@@ -94,7 +95,7 @@ def command(files: tuple[str, ...], json_file: str | None) -> None:
             click.echo(_table(measured))
 
 
-def _measure(jobs: list[Job], measured: list[dict[str, Any]]) -> None:
+def _measure(plan: Plan, measured: list[dict[str, Any]]) -> None:
     """Measure meshes, and add a row for each to a list, in the order of the jobs."""
     from ..batch.recipe import Recipe
 
@@ -103,9 +104,9 @@ def _measure(jobs: list[Job], measured: list[dict[str, Any]]) -> None:
         return ""
 
     try:
-        run_jobs(Recipe((), "measure", must_be_measured=True), jobs, keep, is_listed=True)
+        run_jobs(Recipe((), "measure", must_be_measured=True), plan, keep, is_listed=True)
     finally:
-        order = {job.name: place for place, job in enumerate(jobs)}
+        order = {job.name: place for place, job in enumerate(plan.jobs)}
         measured.sort(key=lambda row: order[row["file"]])
 
 

@@ -20,7 +20,7 @@ from contextlib import ExitStack, contextmanager, suppress
 from typing import Any, TextIO
 
 from ..batch.lost_kernels import note_lost_kernels
-from .errors import verbosity
+from .kept import kept_option, kept_options
 from .text import beginning_of, end_of, printable, terminal_width, width
 
 SECONDS_ON_A_TERMINAL = 1.0
@@ -29,6 +29,14 @@ SECONDS_IN_A_LOG = 8.0
 _PACKAGE = __name__.partition(".")[0]
 # By how often --verbose was given.
 _LEVELS = (logging.WARNING, logging.INFO, logging.DEBUG)
+
+verbose_option = kept_option(
+    "-v",
+    "--verbose",
+    count=True,
+    help="Print the log of passes and steps on the standard error; -vv: the progress too. Not of a "
+    "batch.",
+)
 
 _BAR = 16
 # Narrower windows have no room for the label.
@@ -167,7 +175,7 @@ def _logged(stream: TextIO, status: Status) -> Iterator[None]:
             with suppress(OSError, ValueError):
                 print(printable(self.format(record)), file=stream, flush=True)
 
-    level = _LEVELS[min(verbosity(), len(_LEVELS) - 1)]
+    level = _LEVELS[min(kept_options().get("verbose", 0), len(_LEVELS) - 1)]
     log, printer = logging.getLogger(_PACKAGE), Printer(level)
     before = log.level
     if level != logging.WARNING:

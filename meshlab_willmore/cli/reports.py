@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
-
-import click
 
 from ..batch.jobs import check_page
 from ..batch.shards import Shard
 from ..mesh_files.paths import Output
 from ..messages import WrongUse
 from .completion import files
+from .kept import kept_option, kept_options
 
-# Where click keeps the names that were given, and the pages that these are for.
-_NAMES, _CHOSEN = "report names", "reports"
 _ENDINGS = (".html", ".htm")
 
 
@@ -26,16 +22,10 @@ class Reports(NamedTuple):
     table: Path | None = None
 
 
-def _remember(ctx: click.Context, _: click.Parameter, names: Sequence[str]) -> None:
-    ctx.meta[_NAMES] = names
-
-
-report_option = click.option(
+report_option = kept_option(
     "--report",
     "reports",
     multiple=True,
-    expose_value=False,
-    callback=_remember,
     metavar="PAGE.html",
     shell_complete=files,
     help="Write a page for a browser: before and after in 3D and in numbers. For several meshes it "
@@ -47,7 +37,7 @@ report_option = click.option(
 def check_reports(
     is_several: bool, force: bool, shard: Shard | None = None, is_continued: bool = False
 ) -> Reports:
-    """The pages that were asked for, which `chosen_reports` returns from now on.
+    """The pages that were asked for.
 
     With `is_several` there may be several meshes: then a name without a placeholder is that of
     their table, as it always is beside one with a placeholder. Raises `WrongUse` if a name can't be
@@ -55,9 +45,8 @@ def check_reports(
     goes on, `is_continued`), or is that of the tables of all shares; a name with a
     placeholder is checked when that is filled in.
     """
-    meta = click.get_current_context().meta
     page, table = None, None
-    names = meta.get(_NAMES, ())
+    names = kept_options().get("reports", ())
     is_several = is_several or len(names) > 1
     for name in names:
         if not name.lower().endswith(_ENDINGS):
@@ -74,11 +63,4 @@ def check_reports(
             table = output.path
         else:
             page = output
-    chosen = meta[_CHOSEN] = Reports(page, table)
-    return chosen
-
-
-def chosen_reports() -> Reports:
-    """The pages that were asked for, as `check_reports` found them."""
-    chosen: Reports = click.get_current_context().meta.get(_CHOSEN, Reports())
-    return chosen
+    return Reports(page, table)

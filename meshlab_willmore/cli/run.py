@@ -14,9 +14,10 @@ from ..mesh_files.paths import PLACEHOLDERS, Output, find_inputs
 from ..messages import WrongUse, counted
 from . import runlog
 from .arguments import LAYER_HELP, force_option, form_options, mask_option, take_outputs
-from .batch import batch_options, files_of_batch, json_file_option, planned, run_jobs
+from .batch import batch_options, json_file_option, planned, run_jobs
 from .completion import files, scripts
-from .errors import debug_option, verbose_option
+from .errors import debug_option
+from .progress import verbose_option
 from .reports import report_option
 from .scripts import Script, read_script
 from .text import printable, saved_text, step_results
@@ -211,12 +212,12 @@ def command(
     name = source.name if source else CONVERSION
     recipe = Recipe(_steps(source, settings) if source else (), name, dry_run=dry_run)
     outputs = [output._replace(is_text=as_text, is_single=single) for output in outputs]
-    jobs = planned(find_inputs(inputs, takes_projects=True), outputs, layers, force, dry_run)
+    plan = planned(find_inputs(inputs, takes_projects=True), outputs, layers, force, dry_run)
     used = [Path(name)] if source else []
-    used += [file for file in files_of_batch().values() if file and not is_stream(file)]
-    runlog.check(log_file, [*used, *(file for job in jobs for file in job.files)])
+    used += [file for file in plan.own_files().values() if file and not is_stream(file)]
+    runlog.check(log_file, [*used, *(file for job in plan.jobs for file in job.files)])
     with runlog.opened(None if dry_run else log_file, name):
-        run_jobs(recipe, jobs, partial(_line, recipe), force, has_script=True)
+        run_jobs(recipe, plan, partial(_line, recipe), force, has_script=True)
 
 
 def _script_of(script: str | None, also: str | None) -> Script | None:

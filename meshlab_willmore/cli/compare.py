@@ -29,7 +29,7 @@ from .arguments import (
     hyphened,
     json_option,
 )
-from .compare_row import Comparison, Outcome, Pages, check_reference
+from .compare_row import Comparison, Outcome, check_reference
 from .completion import files
 from .errors import debug_option, is_debug
 from .reports import Reports, check_reports, report_option
@@ -164,8 +164,8 @@ def command(
     rows = _rows(given, peers)
     # With wrong variables each row would fail, without a clear reason.
     numba_settings.import_numba()
-    comparison = Comparison(str(path), reference, timeout)
     reports = check_reports(is_several=True, force=force)
+    comparison = Comparison(str(path), reference, timeout, reports.table is not None)
     pages = _pages_of(reports, path, rows, force)
     outcomes = _outcomes(comparison, rows, pages)
     if reports.table is not None:
@@ -200,9 +200,11 @@ def _rows(given: dict[str, Any], peers: bool) -> list[Row]:
     return [*rows, *(PEERS if peers else ())]
 
 
-def _pages_of(reports: Reports, source: Path, rows: Sequence[Row], force: bool) -> list[Pages]:
+def _pages_of(
+    reports: Reports, source: Path, rows: Sequence[Row], force: bool
+) -> list[Path | None]:
     """The pages of the rows; raises `WrongUse` if one can't be written, or has another's name."""
-    found = []
+    found: list[Path | None] = []
     uses = {} if reports.table is None else {os.path.realpath(reports.table): "the table"}
     for number, row in enumerate(rows):
         page = None
@@ -216,7 +218,7 @@ def _pages_of(reports: Reports, source: Path, rows: Sequence[Row], force: bool) 
                     f"{page} would be both {use} and the page of {row.name}; use another name, "
                     "with {name} for pages"
                 )
-        found.append(Pages(page, reports.table is not None))
+        found.append(page)
     return found
 
 
@@ -225,14 +227,14 @@ def _write_table(
     comparison: Comparison,
     rows: Sequence[Row],
     outcomes: Sequence[Outcome],
-    pages: Sequence[Pages],
+    pages: Sequence[Path | None],
 ) -> None:
     """Write the report page of the comparison."""
     from ..report.table import Entry, link, table_page
 
     columns = _columns(comparison)
     entries = []
-    for row, outcome, own in zip(rows, outcomes, pages, strict=True):
+    for row, outcome, page in zip(rows, outcomes, pages, strict=True):
         values = {column.head: _numbers(outcome)[column.key] for column in columns}
         too_long = f"not finished within {comparison.timeout:g} s" if outcome.timed_out else ""
         problem = outcome.error or too_long
@@ -243,7 +245,7 @@ def _write_table(
                 not problem,
                 (problem,) if problem else (),
                 outcome.picture,
-                link(path, own.page),
+                link(path, page),
                 {**values, "seconds": outcome.seconds},
             )
         )
@@ -253,17 +255,19 @@ def _write_table(
     write(path, text.encode())
 
 
-def _outcomes(comparison: Comparison, rows: Sequence[Row], pages: Sequence[Pages]) -> list[Outcome]:
+def _outcomes(
+    comparison: Comparison, rows: Sequence[Row], pages: Sequence[Path | None]
+) -> list[Outcome]:
     """Compute the rows one by one, and print the errors of those that failed.
 
     Raises `ClickException` if not even the initial mesh can be measured.
     """
     outcomes: list[Outcome] = []
     with progress.shown(Path(comparison.source).name, len(rows)) as status:
-        for row, own in zip(rows, pages, strict=True):
+        for row, page in zip(rows, pages, strict=True):
             status.next(f"{row.name}: {compare_row.READING}")
             say = partial(_show_phase, status, row.name)
-            outcomes.append(compare_row.run(comparison, row, say, own))
+            outcomes.append(compare_row.run(comparison, row, say, page))
             if outcomes[0].error:
                 break
     for row, outcome in zip(rows, outcomes, strict=False):

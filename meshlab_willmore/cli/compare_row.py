@@ -35,17 +35,14 @@ _COMPUTE = f"{__name__}:compute"
 
 
 class Comparison(NamedTuple):
-    """The mesh file, the reference surface (see `read_reference`) and the seconds for a filter."""
+    """The mesh file, the reference surface (see `read_reference`) and the seconds for a filter.
+
+    If `is_pictured`, outcomes have pictures.
+    """
 
     source: str
     reference: str | None
     timeout: float
-
-
-class Pages(NamedTuple):
-    """What a row adds to a report: its own page, if there is one, and whether a picture."""
-
-    page: Path | None = None
     is_pictured: bool = False
 
 
@@ -68,25 +65,15 @@ class Outcome(NamedTuple):
 
 
 class Computation(NamedTuple):
-    """The argument of `compute`: what is compared, a filter and its parameters, and pages."""
+    """The argument of `compute`: what is compared, a row, and the page to write."""
 
     comparison: Comparison
-    filter: str
-    given: dict[str, Any]
-    name: str = ""
-    pages: Pages = Pages()
-
-
-class Computed(NamedTuple):
-    """What `compute` returns: the fields of an `Outcome`."""
-
-    seconds: float | None
-    quality: dict[str, Any]
-    picture: bytes = b""
+    row: Row
+    page: Path | None = None
 
 
 def run(
-    comparison: Comparison, row: Row, notify: Callable[[str], None], pages: Pages | None = None
+    comparison: Comparison, row: Row, notify: Callable[[str], None], page: Path | None = None
 ) -> Outcome:
     """Compute one row in a process of its own; `notify` is called with each phase that begins."""
 
@@ -94,53 +81,54 @@ def run(
         if message != STARTING:
             notify(message.name)
 
-    computation = Computation(comparison, row.filter, row.given, row.name, pages or Pages())
-    task = Task(_COMPUTE, computation)
+    task = Task(_COMPUTE, Computation(comparison, row, page))
     with closing(Seat(PoolSettings(threads=core_count()))) as seat:
         ended = seat.attempt(task, listen).ended
     if ended.status == DONE:
-        return Outcome(**ended.value._asdict())
+        outcome: Outcome = ended.value
+        return outcome
     if ended.status == TIMEOUT:
         return Outcome(timed_out=True)
     return Outcome(error=ended.reason, of_machine=ended.of_machine, trace=ended.trace)
 
 
-def compute(task: Computation, say: Callable[[Any], None]) -> Computed:
-    """The seconds of a filter (None if there is none), and the quality of its mesh."""
+def compute(task: Computation, say: Callable[[Any], None]) -> Outcome:
+    """Apply the filter of a row, if it has one, and measure the mesh."""
     from ..batch.pages import picture
     from ..compare.quality import quality_of
     from ..compare.rows import warm_up
     from ..demo.models import surface_of
 
-    ms = loading.loaded(Path(task.comparison.source))
+    comparison, row, page_file = task
+    source = Path(comparison.source)
+    ms = loading.loaded(source)
     before = surface_of(ms)
     if len(before.faces) == 0:
         raise ValueError("the mesh has no faces, it is a point cloud")
-    reference = task.comparison.reference
-    surface = read_reference(reference) if reference else None
+    reference = read_reference(comparison.reference) if comparison.reference else None
     seconds = None
-    if task.filter:
+    if row.filter:
         say(Phase(WARMING))
-        warm_up(task.filter, task.given)
-        say(Phase(RUNNING, task.comparison.timeout))
+        warm_up(row.filter, row.given)
+        say(Phase(RUNNING, comparison.timeout))
         start = time.perf_counter()
-        ms.apply_filter(task.filter, **task.given)
+        ms.apply_filter(row.filter, **row.given)
         seconds = time.perf_counter() - start
     say(Phase(MEASURING))
-    quality = quality_of(ms, before.faces, surface)._asdict()
+    quality = quality_of(ms, before.faces, reference)._asdict()
     after = surface_of(ms)
-    if task.pages.page is not None and task.filter:
+    if page_file is not None:
         from ..report import page
 
-        title = f"{Path(task.comparison.source).name}, {task.name}"
         settings = {
-            "Filter": task.filter,
-            **task.given,
+            "Filter": row.filter,
+            **row.given,
             "Cuts, as in the table of compare": f"{quality['self_intersecting']} after, counted by "
             "MeshLab's filter for faces that intersect others",
         }
-        page(before, after, task.pages.page, title=title, settings=settings, seconds=seconds)
-    return Computed(seconds, quality, picture(after) if task.pages.is_pictured else b"")
+        title = f"{source.name}, {row.name}"
+        page(before, after, page_file, title=title, settings=settings, seconds=seconds)
+    return Outcome(seconds, quality, picture=picture(after) if comparison.is_pictured else b"")
 
 
 # --- the reference -----------------------------------------------------------------------------

@@ -86,7 +86,7 @@ def test_filter_that_exits_is_not_called_too_slow(task, monkeypatch):
 def test_filter_is_warmed_up_before_timing(task, monkeypatch):
     events = []
     monkeypatch.setattr(rows, "warm_up", lambda *given: events.append(given))
-    compare_row.compute(compare_row.Computation(task, OWN.filter, OWN.given), events.append)
+    compare_row.compute(compare_row.Computation(task, OWN), events.append)
     warming, warmed, running, measuring = events
     assert warmed == (OWN.filter, OWN.given)
     assert warming.name == compare_row.WARMING

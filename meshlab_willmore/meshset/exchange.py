@@ -84,7 +84,7 @@ def give(ms: pymeshlab.MeshSet, old: MeshSnapshot, new: MeshSnapshot) -> None:
                 lambda target: _reload(target, path, old),
                 old.identity,
                 by_copies=new.is_without_pixels,
-                by_filters=_needs_filters(new) or _needs_filters(old),
+                by_filters=_needs_filters(new),
             )
 
 

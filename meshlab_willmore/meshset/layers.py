@@ -26,6 +26,8 @@ _MOST_IDS_TO_REBUILD = 1000
 # The older one of the garbage collector's generations that it collects often.
 _YOUNG = 1
 
+_UNMOVED = np.eye(4)
+
 # By set: the ids of the parked layers. Ids are physical in this module.
 _parked: native.PerSet[frozenset[int]] = native.PerSet(frozenset())
 
@@ -174,7 +176,7 @@ def _identify(ms: MeshSet, identity: Identity) -> None:
 
 
 def _is_moved(identity: Identity) -> bool:
-    return not np.array_equal(identity.transform, np.eye(4))
+    return bool((identity.transform != _UNMOVED).any())
 
 
 def _current_id(ms: MeshSet) -> int:

@@ -384,4 +384,5 @@ def forget_failures() -> None:
     """
     helper = MeshSet()
     helper.add_mesh(pymeshlab.Mesh(np.zeros((1, 3))))
-    apply(helper, "set_selection_none")
+    # Any filter would do; PyMeshLab finds this one soonest.
+    apply(helper, "apply_color_inverse_per_vertex")

@@ -7,6 +7,7 @@ writes of a triangle mesh: little-endian scalar properties, and lists of one fix
 
 from __future__ import annotations
 
+import functools
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
@@ -116,10 +117,11 @@ def _type_name(dtype: np.dtype) -> str:
     return next(name for name, code in SCALARS.items() if np.dtype(code) == dtype)
 
 
-def _properties(records: np.ndarray) -> list[str]:
+@functools.cache
+def _properties(records: np.dtype) -> list[str]:
     lines = []
-    fields: Any = records.dtype.fields
-    for name in records.dtype.names or ():
+    fields: Any = records.fields
+    for name in records.names or ():
         if name.endswith(_COUNT_SUFFIX):
             continue
         dtype = fields[name][0]
@@ -137,8 +139,8 @@ def write(path: Path, mesh: PlyMesh) -> None:
     edges = np.ascontiguousarray(mesh.edges, "<i4")
     header = ["ply", "format binary_little_endian 1.0"]
     header += [_TEXTURE_COMMENT + name for name in mesh.textures]
-    header += [f"element vertex {len(mesh.vertices)}", *_properties(mesh.vertices)]
-    header += [f"element face {len(mesh.faces)}", *_properties(mesh.faces)]
+    header += [f"element vertex {len(mesh.vertices)}", *_properties(mesh.vertices.dtype)]
+    header += [f"element face {len(mesh.faces)}", *_properties(mesh.faces.dtype)]
     if len(edges):
         header += [f"element edge {len(edges)}", "property int vertex1", "property int vertex2"]
     with path.open("wb") as file:

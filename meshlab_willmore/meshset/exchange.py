@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path, PurePosixPath
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pymeshlab
@@ -35,6 +35,9 @@ _PLACEHOLDER = "texture.png"
 _PART_FILE = "part.ply"
 _PART_SIZE = 100
 _NORMAL = ("nx", "ny", "nz")
+
+_ROWS = 4096
+_PLAIN_FACE = np.dtype([("vertex_indices_count", "u1"), ("vertex_indices", "<i4", (3,))])
 
 # MeshLab writes radii as double, but reads them into the place of a float.
 _READABLE = {"radius": np.dtype("<f4")}
@@ -96,7 +99,34 @@ def _size(snapshot: MeshSnapshot) -> int:
     return records + sum(_BYTES_OF_PIXEL * i.width() * i.height() for i in images)
 
 
-def with_faces(old: MeshSnapshot, faces: np.ndarray, corners: np.ndarray) -> MeshSnapshot:
+class Flipped(NamedTuple):
+    """What is new of a mesh after flips, if its faces had no flags and other data.
+
+    Attributes
+    ----------
+    faces : (m,) structured ndarray
+        The records of the faces.
+    normals : (n, 3) float64 ndarray
+        The normals of the vertices.
+    """
+
+    faces: np.ndarray
+    normals: np.ndarray
+
+
+def flipped(vertices: np.ndarray, faces: np.ndarray, others: np.ndarray) -> Flipped:
+    """What is new after flips; `others` are the normals of the vertices without faces."""
+    # Numba takes too long to import for programs that don't flip.
+    from ..mesh.normals import vertex_normals
+
+    records = np.empty(len(faces), _PLAIN_FACE)
+    records["vertex_indices_count"], records["vertex_indices"] = 3, faces
+    return Flipped(records, vertex_normals(vertices, faces, others))
+
+
+def with_faces(
+    old: MeshSnapshot, faces: np.ndarray, corners: np.ndarray, new: Flipped | None = None
+) -> MeshSnapshot:
     """The mesh with other faces.
 
     Parameters
@@ -106,17 +136,28 @@ def with_faces(old: MeshSnapshot, faces: np.ndarray, corners: np.ndarray) -> Mes
         The new faces, slot by slot.
     corners : (m, 3) int32 ndarray
         For each new corner the old corner (3 * face + place) whose wedge data it gets.
+    new : Flipped, optional
+        What `flipped` returns; also if the faces turn out to have more.
     """
-    # Numba takes too long to import for programs that don't flip.
-    from ..mesh.normals import vertex_normals
+    if new is None:
+        new = flipped(old.vertices, faces, old.normals)
+    records = new.faces if _is_plain(old.ply.faces) else _new_records(old.ply, faces, corners)
+    return old._replace(faces=faces, ply=old.ply._replace(faces=records), normals=new.normals)
 
-    changed = {"vertex_indices": faces, "flags": carry_side_bits(old.ply, faces)}
-    if "texcoord" in (old.ply.faces.dtype.names or ()):
-        wedges = old.ply.faces["texcoord"].reshape(-1, 2)
+
+def _is_plain(faces: np.ndarray) -> bool:
+    """Whether faces have no flags that are set, and no other data."""
+    names = faces.dtype.names
+    return names == (*(_PLAIN_FACE.names or ()), "flags") and not faces["flags"].any()
+
+
+def _new_records(old: ply.PlyMesh, faces: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """The records of the faces with other corners."""
+    changed = {"vertex_indices": faces, "flags": carry_side_bits(old, faces)}
+    if "texcoord" in (old.faces.dtype.names or ()):
+        wedges = old.faces["texcoord"].reshape(-1, 2)
         changed["texcoord"] = wedges[corners.ravel()].reshape(-1, 6)
-    records = _with_columns(old.ply.faces, changed)
-    normals = vertex_normals(old.vertices, faces, old.normals)
-    return old._replace(faces=faces, ply=old.ply._replace(faces=records), normals=normals)
+    return _with_columns(old.faces, changed)
 
 
 def _try_a_part(path: Path, whole: MeshSnapshot, written: ply.PlyMesh) -> None:
@@ -203,8 +244,11 @@ def _with_columns(records: np.ndarray, columns: dict[str, np.ndarray]) -> np.nda
     if not columns and np.dtype(fields) == records.dtype:
         return records
     new = np.empty(len(records), fields)
-    for name, values in sources.items():
-        new[name] = values
+    # A block of rows stays in the processor's cache for all columns.
+    for start in range(0, len(records), _ROWS):
+        rows = slice(start, start + _ROWS)
+        for name, values in sources.items():
+            new[name][rows] = values[rows]
     return new
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from typing import Any
 
@@ -116,22 +117,12 @@ def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any]
     # A variable with the mesh would keep it, also in an exception that a caller keeps.
     current_surface(ms)
     if can_be_saved_late(ms):
-        surface = surface_of(ms.current_mesh())
-        _refuse(shown_losses(ms.current_mesh()), values)
-        result = _flipped(surface, _NO_EDGES, values)
-        if result.flips:
-            snapshot = take(ms, late=surface)
-            _refuse(snapshot.unsupported, values)
-            fixed = edge_flags.fixed_edges(snapshot)
-            if len(fixed):
-                result = _flipped(snapshot, fixed, values)
+        result = _flip_and_save(ms, values)
     else:
         snapshot = take(ms)
         _refuse(snapshot.unsupported, values)
         result = _flipped(snapshot, edge_flags.fixed_edges(snapshot), values)
-    if result.flips:
-        flipped = exchange.with_faces(snapshot, result.faces, result.corners)
-        exchange.give(ms, snapshot, flipped)
+        _give(ms, snapshot, result)
     seconds = time.perf_counter() - start
     returned = {
         "flips": result.flips,
@@ -150,6 +141,39 @@ def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any]
         "mesh_id": ids.logical_id(ms, native.id_of(native.current_mesh(ms))),
     }
     return returned, f"{result.flips} Willmore edge flips performed in {seconds:.2f} sec."
+
+
+def _flip_and_save(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> FlipResult:
+    """Flip edges of a mesh that can be saved late, and save it only if there are flips."""
+    surface = surface_of(ms.current_mesh(), values["selection"])
+    _refuse(shown_losses(ms.current_mesh()), values)
+    result = _flipped(surface, _NO_EDGES, values)
+    if not result.flips:
+        return result
+    old_normals = ms.current_mesh().vertex_normal_matrix()
+    with ThreadPoolExecutor(1) as pool:
+        # PyMeshLab saves on one core.
+        new = pool.submit(exchange.flipped, surface.vertices, result.faces, old_normals)
+        snapshot = take(ms, late=surface)
+    _refuse(snapshot.unsupported, values)
+    fixed = edge_flags.fixed_edges(snapshot)
+    if not len(fixed):
+        _give(ms, snapshot, result, new.result())
+        return result
+    result = _flipped(snapshot, fixed, values)
+    _give(ms, snapshot, result)
+    return result
+
+
+def _give(
+    ms: pymeshlab.MeshSet,
+    snapshot: MeshSnapshot,
+    result: FlipResult,
+    new: exchange.Flipped | None = None,
+) -> None:
+    if result.flips:
+        changed = exchange.with_faces(snapshot, result.faces, result.corners, new)
+        exchange.give(ms, snapshot, changed)
 
 
 def _refuse(unsupported: list[str], values: dict[str, Any]) -> None:

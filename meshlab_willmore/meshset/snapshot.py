@@ -62,7 +62,7 @@ class Surface(NamedTuple):
 
     vertices: np.ndarray
     faces: np.ndarray
-    selected_faces: np.ndarray
+    selected_faces: np.ndarray | None
     wedge_uv: None = None
 
 
@@ -134,12 +134,12 @@ def can_be_saved_late(ms: pymeshlab.MeshSet) -> bool:
     )
 
 
-def surface_of(mesh: pymeshlab.Mesh) -> Surface:
-    """Read what flips depend on; nothing of `mesh` changes."""
+def surface_of(mesh: pymeshlab.Mesh, selection: bool) -> Surface:
+    """Read what flips depend on, with or without the selection; nothing of `mesh` changes."""
     return Surface(
         np.ascontiguousarray(mesh.vertex_matrix()),
         np.ascontiguousarray(mesh.face_matrix(), np.int32),
-        mesh.face_selection_array(),
+        mesh.face_selection_array() if selection else None,
     )
 
 

@@ -20,9 +20,10 @@ from tests.meshset.contents import (
 
 
 @pytest.fixture(autouse=True)
-def none_came_through(monkeypatch):
-    """Each mesh is the first of its kind in the process."""
+def anew(monkeypatch):
+    """Each mesh is the first of its kind in the process, and fills several blocks of rows."""
     monkeypatch.setattr(exchange, "_came_through", set())
+    monkeypatch.setattr(exchange, "_ROWS", 64)
 
 
 def attributes_of(ms):

@@ -20,7 +20,6 @@ from ..machine import MachineError, MachineWarning, core_count
 from ..mesh_files.paths import Output, check_output, find_inputs
 from ..mesh_files.projects import check_layers
 from ..messages import WrongUse, one_line
-from ..mlx.steps import Step
 from ..numba_settings import check_variables
 from ..progress import Listen, Listener
 from . import records
@@ -59,11 +58,8 @@ class BatchOptions(NamedTuple):
     stop: bool = False
     client: Client | None = None
     renewed_after: int = RENEWED_AFTER
-
-
-def _warm_up(steps: tuple[Step, ...]) -> Task:
-    """What compiles the kernels; for lack of memory, the compiler may hang."""
-    return Task(_WARM_UP, steps, is_limited=False)
+    # The page with a table of all, which is written in the end.
+    table: Path | None = None
 
 
 def run(
@@ -174,7 +170,6 @@ def run(
     )
     if table is not None:
         check_page(table, force, is_continued)
-        recipe = recipe._replace(is_pictured=True)
     options = BatchOptions(
         workers=workers,
         timeout=timeout,
@@ -187,18 +182,11 @@ def run(
         stop=stop,
         client=client,
         renewed_after=renewed_after,
+        table=table,
     )
     check_apart({"the table of the report": table, "the log": options.log}, jobs)
-    shown: list[Result] = []
-    with ExitStack() as stack:
-        batch = stack.enter_context(closing(Batch(recipe, jobs, options)))
-        if table is not None:
-            shown += batch.earlier
-            stack.callback(write_table, table, recipe.source, jobs, shown)
-        for result in batch.results(listener):
-            if table is not None:
-                shown.append(result)
-            yield result
+    with closing(Batch(recipe, jobs, options)) as batch:
+        yield from batch.results(listener)
 
 
 def _page(name: str, share: Shard | None) -> Output:
@@ -224,8 +212,9 @@ class Batch:
 
     def __init__(self, recipe: Recipe, jobs: Sequence[Job], options: BatchOptions) -> None:
         _check(options)
-        self._recipe = recipe
+        self._recipe = recipe._replace(is_pictured=options.table is not None)
         self._options = options
+        self._all_jobs = jobs
         self._hash = records.recipe_of(*described(recipe), *_manners(jobs))
         if options.log is not None:
             records.check(options.log, options.resume, options.force)
@@ -252,6 +241,8 @@ class Batch:
         if options.resume and not recipe.dry_run:
             remove_stale({output.path.parent for job in self.jobs for output in job.outputs})
         self._pool: Pool[int] | None = None
+        # The results that the table shows.
+        self._shown = [*self.earlier]
         # How many results were taken, and the messages of the workers by job.
         self._count = 0
         self._heard: dict[int, list[Any]] = defaultdict(list)
@@ -275,9 +266,11 @@ class Batch:
         return [(self.jobs[key].name, phase) for key, phase in now]
 
     def close(self) -> None:
-        """End all workers at once."""
+        """End all workers at once, and write the table."""
         if self._pool is not None:
             self._pool.close()
+        if self._options.table is not None:
+            write_table(self._options.table, self._recipe.source, self._all_jobs, self._shown)
 
     def results(self, listener: Listener | None = None) -> Generator[Result, None, None]:
         """Do the jobs; give what became of each as it ends, when that is recorded.
@@ -293,6 +286,8 @@ class Batch:
                 if log is not None:
                     own.add(result)
                 _log.info("%s: %s, %.3f s", result.input, result.status, result.seconds)
+                if self._options.table is not None:
+                    self._shown.append(result)
                 yield result
                 if self._options.stop and not result.is_done:
                     return
@@ -345,7 +340,8 @@ class Batch:
         settings = PoolSettings(
             retries=options.retries,
             renewed_after=options.renewed_after,
-            warm_up=None if recipe.dry_run else _warm_up(steps),
+            # For lack of memory, the compiler may hang.
+            warm_up=None if recipe.dry_run else Task(_WARM_UP, steps, is_limited=False),
             memory=options.memory,
         )
         if options.client is not None:

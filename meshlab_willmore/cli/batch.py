@@ -199,26 +199,17 @@ def _run_batch(
             "for the log of a mesh, process it alone"
         )
     summary = Summary()
-    table = None if recipe.dry_run else plan.table
-    recipe = recipe._replace(is_pictured=table is not None)
-    shown: list[Result] = []
     prints_json = _records_file() == STANDARD_OUTPUT
     is_shown = is_listed or not (sys.stdout.isatty() or prints_json)
     with ExitStack() as stack:
-        options = _options(given, force, stack)
+        options = _options(given, force, None if recipe.dry_run else plan.table, stack)
         batch = stack.enter_context(closing(Batch(recipe, jobs, options)))
-        if table is not None:
-            # However the batch ends.
-            stack.callback(_write_table, table, recipe.source, jobs, shown)
         for result in batch.earlier:
             summary.add(result)
-            shown.append(result)
             _report(result)
         show = stack.enter_context(_progress(batch, summary))
         for result in stack.enter_context(closing(batch.results())):
             summary.add(result)
-            if table is not None:
-                shown.append(result)
             _log(result)
             show()
             for text in result.notes:
@@ -241,7 +232,7 @@ def _run_batch(
         raise click.ClickException(how_many_failed(summary.failed, summary.failed + summary.done))
 
 
-def _options(given: dict[str, Any], force: bool, stack: ExitStack) -> Any:
+def _options(given: dict[str, Any], force: bool, table: Path | None, stack: ExitStack) -> Any:
     from ..batch.runner import BatchOptions
 
     client = None
@@ -260,6 +251,7 @@ def _options(given: dict[str, Any], force: bool, stack: ExitStack) -> Any:
         retry_failed="retry_failed" in given,
         stop="stop" in given or is_debug(),
         client=client,
+        table=table,
     )
 
 
@@ -272,13 +264,6 @@ def _client(address: str) -> Iterator[Client]:
         yield client
     finally:
         client.close()
-
-
-def _write_table(*given: Any) -> None:
-    # It needs PyMeshLab.
-    from ..batch.pages import write_table
-
-    write_table(*given)
 
 
 def _report(result: Result) -> None:

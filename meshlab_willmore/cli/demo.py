@@ -9,6 +9,7 @@ import click
 from . import progress
 from .completion import folders
 from .errors import debug_option
+from .text import table
 
 EXAMPLES = """\b
 Examples:
@@ -40,7 +41,7 @@ def command(output: Path) -> None:
     folder. It needs no network and no files.
     """
     from ..demo.experiments import run_demo
-    from ..report.stages import format_table
+    from ..report.stages import LEGEND, table_rows
 
     with progress.shown("demo") as status, progress.with_details(status):
 
@@ -49,6 +50,6 @@ def command(output: Path) -> None:
             status.begin(line)
 
         result = run_demo(output, notify)
-    click.echo(format_table(result.stages))
+    click.echo(table(table_rows(result.stages), LEGEND))
     click.echo(f"Written to {output.resolve()}:")
     click.echo("  " + " ".join(file.name for file in result.files))

@@ -10,7 +10,6 @@ from typing import NamedTuple
 DIGITS = 6
 # A double has no more exact digits.
 HUGE = 1e15
-GAP = "  "
 INDENT = "  "
 LEGEND = (
     "W: Willmore energy. M: absolute mean curvature, the sum of angle times length.\n"
@@ -40,8 +39,8 @@ class Stage(NamedTuple):
 HEADER = ("", "faces", "flips", "W", "area", "M", "shape", "seconds")
 
 
-def format_table(stages: Sequence[Stage]) -> str:
-    """Format the stages as a table, with a heading for each model and a legend below.
+def table_rows(stages: Sequence[Stage]) -> list[tuple[str, ...]]:
+    """The rows of a table: its header, then the stages below the name of their model.
 
     Parameters
     ----------
@@ -52,17 +51,7 @@ def format_table(stages: Sequence[Stage]) -> str:
     for model, group in groupby(stages, key=lambda stage: stage.model):
         rows.append((model, *[""] * (len(HEADER) - 1)))
         rows.extend(_cells(stage) for stage in group)
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    lines = [_line(row, widths) for row in rows]
-    rule = "-" * max(map(len, lines))
-    return "\n".join([lines[0], rule, *lines[1:], rule, LEGEND])
-
-
-def _line(row: Sequence[str], widths: Sequence[int]) -> str:
-    name, *numbers = row
-    cells = [name.ljust(widths[0])]
-    cells += [cell.rjust(width) for cell, width in zip(numbers, widths[1:], strict=True)]
-    return GAP.join(cells).rstrip()
+    return rows
 
 
 def _cells(stage: Stage) -> tuple[str, ...]:

@@ -2,7 +2,8 @@
 
 import pytest
 
-from meshlab_willmore.report.stages import LEGEND, Stage, format_table, significant
+from meshlab_willmore.cli.text import table
+from meshlab_willmore.report.stages import LEGEND, Stage, significant, table_rows
 
 
 @pytest.mark.parametrize(
@@ -31,7 +32,7 @@ def test_table_is_laid_out_exactly():
         Stage("cube", "Willmore flips", 24, 6, 29.9173, 6.02993, 23.6376, 0.868, 0.004),
         Stage("scan", "cleaned", 166119, None, 63932.3, 19859.1, 10224.1, 0.425, 0.17),
     ]
-    assert format_table(stages) == "\n".join(
+    assert table(table_rows(stages), LEGEND) == "\n".join(
         [
             "                   faces  flips        W     area        M  shape  seconds",
             "--------------------------------------------------------------------------",

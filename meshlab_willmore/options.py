@@ -96,17 +96,14 @@ class Option(NamedTuple):
 
     Attributes
     ----------
-    name : str
-        The keyword: lower case, without underscores.
+    name, label, help : str
+        The keyword, in lower case and without underscores; what MeshLab would write beside the
+        field; and what the option does, in whole sentences.
     type : type
         bool, int, float, `Length`, or str: a choice, or what can be a text as well as a number.
     default : object
         That of the filter; None: it depends on the mesh. Of a `Length`, in percent of the bounding
         box's diagonal.
-    label : str
-        What MeshLab would write beside the field.
-    help : str
-        What it does, in whole sentences.
     rule : callable
         Checks a value of the option; see `checked`.
     choices : tuple of str

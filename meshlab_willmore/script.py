@@ -105,9 +105,9 @@ def run(
     script: Script,
     ms: pymeshlab.MeshSet | None = None,
     *,
+    progress: Listen | None = None,
     before: Callable[[Call], None] | None = None,
     after: Callable[[Played], None] | None = None,
-    progress: Listen | None = None,
 ) -> list[Played]:
     """Check a script, then run it on a set of meshes.
 
@@ -118,14 +118,14 @@ def run(
     ms : pymeshlab.MeshSet, optional
         Changed in place; an empty one is made for a script that creates its own mesh. Its own
         filter script stays as it is.
-    before, after : callable, optional
-        Called before each step with its `Call`, and after it with what was `Played`.
     progress : callable, optional
         Called with the fraction that is done and a text that names the step: when a step begins,
         while one of this package's filters works, at most ten times a second, and last with exactly
         1. All steps count the same. If it returns False, or raises an exception, no further step
         runs, and a filter of this package leaves its mesh as it was; native filters can't be
         stopped.
+    before, after : callable, optional
+        Called before each step with its `Call`, and after it with what was `Played`.
 
     Returns
     -------

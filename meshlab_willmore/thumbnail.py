@@ -41,15 +41,7 @@ _GREY_WITH_ALPHA = 4
 def view_of(vertices: Array, faces: NDArray[np.integer]) -> Array:
     """Return a rotation that shows much of a mesh: an open one from its front, others obliquely.
 
-    Parameters
-    ----------
-    vertices : (n, 3) float64
-    faces : (m, 3) int
-
-    Returns
-    -------
-    (3, 3) float64
-        Its rows are the directions to the right, upwards, and towards the viewer.
+    Its rows are the directions to the right, upwards, and towards the viewer.
     """
     normals = _normals(_in_unit_cube(vertices)[faces])
     mean, size = normals.sum(axis=0), np.linalg.norm(normals, axis=1).sum()

@@ -43,11 +43,9 @@ class Cluster(Generic[Key]):
         self,
         tasks: Iterable[tuple[Key, Task]],
         listen: Callable[[Key, Any], None] = lambda key, message: None,
-        wait: Callable[[], object] = lambda: None,
+        wait: Callable[[], object] | None = None,
     ) -> Iterator[tuple[Key, Attempted]]:
-        """Do tasks; give the key of each with how it ended, as they end.
-
-        `wait` is never called; it is there as `Pool` has it.
+        """As `Pool.ended`, but `wait` is never called.
 
         Raises `ConnectionError` if the scheduler is lost.
         """

@@ -209,10 +209,10 @@ class Pool(Generic[Key]):
         listen: Callable[[Key, Any], None] = lambda key, message: None,
         wait: Callable[[], object] = lambda: None,
     ) -> Iterator[tuple[Key, Attempted]]:
-        """Do tasks; give the key of each with how it ended, as they end.
+        """Do tasks, each when a worker is free; give their keys with how they ended, as they end.
 
         `listen` is called with keys and messages, in other threads, and `wait` about twice a second
-        while no task ends. Tasks are taken when a worker is free.
+        while no task ends.
         """
         waiting = iter(tasks)
         self._threads = [

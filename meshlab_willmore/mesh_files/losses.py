@@ -106,8 +106,8 @@ def _missing_names(path: Path, missing: list[str]) -> tuple[list[str], list[str]
     odd: list[str] = []
     if path.suffix.lower() == ".ply":
         # PyMeshLab removes the blanks.
-        names = [name for name in ply_header(path).textures if " " in name]
-        odd = [name for name in names if name.replace(" ", "") in missing]
+        _, textures = ply_header(path)
+        odd = [name for name in textures if " " in name and name.replace(" ", "") in missing]
     elif path.suffix.lower() == ".obj" and "" in missing:
         for file in _material_files(path):
             found = dict.fromkeys(name.strip() for name in _TEXTURES.findall(_data(file)))
@@ -187,15 +187,8 @@ class Property(NamedTuple):
     type: str
 
 
-class PlyHeader(NamedTuple):
-    """The properties of all elements that are not empty, and the textures."""
-
-    properties: tuple[Property, ...]
-    textures: tuple[str, ...]
-
-
-def ply_header(file: Path) -> PlyHeader:
-    """The header of a PLY file, as far as it can be read."""
+def ply_header(file: Path) -> tuple[list[Property], list[str]]:
+    """The properties of all elements of a PLY file that are not empty, and its textures."""
     properties: list[Property] = []
     textures: list[str] = []
     element = ""
@@ -212,13 +205,14 @@ def ply_header(file: Path) -> PlyHeader:
             elif element and (found := _PROPERTY.fullmatch(line)):
                 kind = _SYNONYMS.get(found[1], found[1])
                 properties.append(Property(element, found[2], kind))
-    return PlyHeader(tuple(properties), tuple(textures))
+    return properties, textures
 
 
 def _unread_properties(path: Path) -> Iterator[str]:
+    properties, _ = ply_header(path)
     unread = [
         f"{found.name} ({found.element}, {found.type})"
-        for found in ply_header(path).properties
+        for found in properties
         if found.element != _NO_SURFACE
         and found.type not in _READ.get((found.element, found.name), ())
     ]

@@ -107,7 +107,7 @@ def _write(ms: pymeshlab.MeshSet, draft: Path, path: Path, options: SaveOptions)
         custom = []
     _write_with(ms, draft, path, {**dict.fromkeys(custom, True), **manner})
     if custom:
-        names = {_simplified(found.name) for found in ply_header(draft).properties}
+        names = {_simplified(found.name) for found in ply_header(draft)[0]}
         sound = [key for key in custom if _simplified(_ATTRIBUTE.sub(r"\1", key)) in names]
         if sound != custom:
             note("custom attributes with odd names are not saved")

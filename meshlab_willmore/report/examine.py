@@ -67,13 +67,7 @@ class Examined(NamedTuple):
 
 
 def examined(vertices: Any, faces: Any) -> Examined:
-    """Measure a mesh.
-
-    Raises
-    ------
-    TypeError, ValueError
-        As `meshlab_willmore.mesh.validate.check_mesh`.
-    """
+    """Measure a mesh; raises errors as `meshlab_willmore.mesh.validate.check_mesh`."""
     vertices, faces = check_mesh(vertices, faces)
     scaled = _centred(vertices)
     corners = scaled[faces]

@@ -33,17 +33,9 @@ COMPRESSION = 6
 
 
 class Shown(NamedTuple):
-    """A mesh as the viewer shows it.
+    """A mesh as the viewer shows it, with the arrays of `Examined` that it needs for that.
 
-    Attributes
-    ----------
-    vertices : (n, 3) float64
-    faces : (m, 3) int32
-    energy : (n,) float64
-    dihedral : (m, 3) float64
-        As in `meshlab_willmore.report.examine.Examined`.
-    flipped : (m, 3) bool
-        The sides that the other mesh does not have.
+    The sides of faces that the other mesh does not have are `flipped` (m, 3).
     """
 
     vertices: Array

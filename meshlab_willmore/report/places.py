@@ -24,18 +24,10 @@ GOOD_SHAPE = 0.6
 
 
 class Place(NamedTuple):
-    """A place of a mesh.
+    """A place of a mesh: its point (3,), seen against the normal (3,), and how bad it is there.
 
-    Attributes
-    ----------
-    point, normal : (3,) float64
-        Where it is, and from where it is seen.
-    half : float
-        From the middle to the sides of the picture.
-    value : str
-        How bad it is there.
-    was : str
-        How bad it was before; empty if that is not known.
+    The sides of the picture are `half` from its middle. How bad it `was` before is empty if that is
+    not known.
     """
 
     point: Array

@@ -95,11 +95,50 @@ def plan(
         if page is None or job.page is None:
             continue
         if _has_folder(job, job.page, page, makes_folders):
-            check_page(job.page, force, is_continued, "{name}.html")
+            _check_page(job.page, force, is_continued, "{name}.html")
     return jobs
 
 
-def check_page(path: Path, force: bool, is_continued: bool, example: str = "report.html") -> None:
+class Reports(NamedTuple):
+    """The page of each mesh, a pattern if there are several; and the page of all."""
+
+    page: Output | None = None
+    table: Path | None = None
+
+
+def reports_of(
+    names: Sequence[str],
+    is_several: bool,
+    force: bool,
+    shard: Shard | None = None,
+    is_continued: bool = False,
+) -> Reports:
+    """The pages for names of which one can have a placeholder.
+
+    With `is_several` there may be several meshes: then a name without a placeholder is that of
+    their table, as it always is beside one with a placeholder. Raises `WrongUse` if a table can't
+    be written (see `_check_page`), has the same name as those of the other shares, or is named
+    twice; a name with a placeholder is checked by `plan`.
+    """
+    page, table = None, None
+    is_several = is_several or len(names) > 1
+    for name in names:
+        output = Output(name if shard is None else shard.in_name(name))
+        is_table = is_several and not output.has_placeholder
+        if (table if is_table else page) is not None:
+            what = "the table of all meshes" if is_table else "the page of a mesh"
+            raise WrongUse(f"--report {name}: {what} has a name already; name it once")
+        if is_table:
+            if shard is not None:
+                shard.check_table(name)
+            _check_page(output.path, force, is_continued)
+            table = output.path
+        else:
+            page = output
+    return Reports(page, table)
+
+
+def _check_page(path: Path, force: bool, is_continued: bool, example: str = "report.html") -> None:
     """Raise `WrongUse` as `check_place`; a batch that goes on may replace report pages only."""
     check_place(path, force or (is_continued and _is_page(path)), example)
 

@@ -24,13 +24,13 @@ from ..numba_settings import check_variables
 from ..progress import Listen, Listener
 from . import records
 from .cluster import Cluster
-from .jobs import Job, check_apart, check_page, plan
+from .jobs import Job, check_apart, plan, reports_of
 from .pages import write_table
 from .pool import RENEWED_AFTER, STARTING, Attempted, Pool, PoolSettings, remove_stale
 from .process import CRASH, DONE, ERROR, MEMORY, TIMEOUT, Ended, Phase, Task
 from .recipe import Recipe, Script, described, recipe_of
 from .records import BAD_FILE, Earlier, Records, Result
-from .shards import Shard, shard_of
+from .shards import shard_of
 from .work import READING, Line, Made, Note, Picture, Work
 
 if TYPE_CHECKING:
@@ -156,20 +156,18 @@ def run(
         return
     outputs = [] if output is None else [Output(os.fspath(output))]
     share = None if shard is None else shard_of(shard)
-    page = None if report is None else _page(os.fspath(report), share)
-    table = None if page is None or page.has_placeholder else page.path
     is_continued = resume or retry_failed
+    pages = [] if report is None else [os.fspath(report)]
+    page, table = reports_of(pages, True, force, share, is_continued)
     jobs = plan(
         find_inputs([os.fspath(name) for name in names], takes_projects=True),
         outputs,
         False,
         force,
         share,
-        page if table is None else None,
+        page,
         is_continued=is_continued,
     )
-    if table is not None:
-        check_page(table, force, is_continued)
     options = BatchOptions(
         workers=workers,
         timeout=timeout,
@@ -187,16 +185,6 @@ def run(
     check_apart({"the table of the report": table, "the log": options.log}, jobs)
     with closing(Batch(recipe, jobs, options)) as batch:
         yield from batch.results(listener)
-
-
-def _page(name: str, share: Shard | None) -> Output:
-    """The page of the table, or of each mesh if the name has placeholders."""
-    if share is None:
-        return Output(name)
-    page = Output(share.in_name(name))
-    if not page.has_placeholder:
-        share.check_table(name)
-    return page
 
 
 class Batch:

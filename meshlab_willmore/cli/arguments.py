@@ -42,6 +42,29 @@ _ATTACHED = re.compile(
     r"(?!-om$)(-[iomlpw])(.+)|(--(?:input|output|mask|layer|project|write-project))=(.*)", re.DOTALL
 )
 
+_KEPT = "kept options"
+
+
+def kept_option(*names: str, **attributes: Any) -> Callable[..., Any]:
+    """An option whose value, if it is given, is one of `kept_options`, and no argument.
+
+    A group and its commands share these: the option can be before or behind the command's name.
+    """
+
+    def keep(ctx: click.Context, option: click.Parameter, value: Any) -> None:
+        if value:
+            ctx.meta.setdefault(_KEPT, {})[option.name] = value
+
+    return click.option(*names, expose_value=False, callback=keep, **attributes)
+
+
+def kept_options() -> dict[str, Any]:
+    """The values that were given, by the options' names; none outside of a command."""
+    ctx = click.get_current_context(silent=True)
+    kept: dict[str, Any] = {} if ctx is None else ctx.meta.setdefault(_KEPT, {})
+    return kept
+
+
 force_option = click.option("--force", is_flag=True, help="Overwrite existing files.")
 json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 

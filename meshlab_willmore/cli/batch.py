@@ -12,17 +12,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from ..batch.jobs import Job, check_apart, plan
+from ..batch.jobs import Job, Reports, check_apart, plan
 from ..batch.shards import shard_of
 from ..batch.steplog import log
 from ..batch.summary import Summary, duration, failure
 from ..files import STANDARD_OUTPUT
 from ..messages import WrongUse, note
 from . import progress
+from .arguments import kept_option, kept_options
 from .errors import is_debug
-from .kept import kept_option, kept_options
 from .one_job import run_here
-from .reports import Reports, check_reports
+from .reports import check_reports
 from .scripts import STANDARD_STREAM
 from .text import how_many_failed, in_window, printable
 

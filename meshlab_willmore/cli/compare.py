@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from .. import numba_settings
+from ..batch.jobs import Reports
 from ..batch.steplog import for_json
 from ..files import write
 from ..mesh_files.paths import check_place, only_input
@@ -32,7 +33,7 @@ from .arguments import (
 from .compare_row import Comparison, Outcome, check_reference
 from .completion import files
 from .errors import debug_option, is_debug
-from .reports import Reports, check_reports, report_option
+from .reports import check_reports, report_option
 from .text import wrapped_table
 
 if TYPE_CHECKING:

@@ -19,7 +19,7 @@ from .. import machine
 from ..messages import WrongUse, notes_taken_by, one_line
 from ..mlx.steps import ScriptError
 from ..signals import ENDING, handled_by
-from .kept import kept_option, kept_options
+from .arguments import kept_option, kept_options
 from .text import printable
 
 DOCTOR = " ('meshlab-willmore doctor' shows what is missing)"

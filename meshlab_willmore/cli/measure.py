@@ -12,10 +12,10 @@ import click
 
 from ..mesh_files.paths import find_inputs
 from ..messages import WrongUse, one_line
+from .arguments import kept_options
 from .batch import RECORDS, Plan, batch_options, planned, run_jobs
 from .completion import files
 from .errors import debug_option
-from .kept import kept_options
 from .scripts import STANDARD_STREAM
 from .text import fitted, table
 

@@ -20,7 +20,7 @@ from contextlib import ExitStack, contextmanager, suppress
 from typing import Any, TextIO
 
 from ..batch.lost_kernels import note_lost_kernels
-from .kept import kept_option, kept_options
+from .arguments import kept_option, kept_options
 from .text import beginning_of, end_of, printable, terminal_width, width
 
 SECONDS_ON_A_TERMINAL = 1.0

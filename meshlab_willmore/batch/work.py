@@ -17,7 +17,7 @@ import pymeshlab
 
 from .. import memory
 from ..compare.rows import warm_up as warm_up_filter
-from ..demo.models import dented_cube
+from ..demo.models import dented_cube, set_of
 from ..mesh_files import loading, projects
 from ..mesh_files.paths import Output, is_project
 from ..mesh_files.saving import SaveOptions, save
@@ -221,9 +221,7 @@ def warm_up(steps: tuple[Step, ...], say: Say) -> None:
         warm_up_filter("get_willmore_measures", {})
         for call in resolve(steps, "warm-up"):
             if call.known.is_willmore:
-                ms = pymeshlab.MeshSet()
-                ms.add_mesh(pymeshlab.Mesh(*dented_cube()))
-                play(ms, [call])
+                play(set_of(dented_cube()), [call])
 
 
 # --- loading and saving ------------------------------------------------------------------------

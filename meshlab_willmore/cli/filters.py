@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -71,15 +70,21 @@ def _matches(known: FilterInfo, words: str) -> bool:
 
 
 def _explained(known: FilterInfo) -> str:
+    from ..meshset.filters import BY_NAME
+
+    ours = BY_NAME.get(known.name)
     lines = [known.name, f"  in MeshLab: {known.meshlab_name}"]
     lines += wrapped(known.summary, WIDTH, "  ")
     lines += ["", "Parameters: none"] if not known.params else ["", "Parameters:"]
     values = defaults(known)
-    tooltips = _tooltips(known)
+    tooltips = {p.name: p.tooltip for p in ours.parameters} if ours else {}
     for param in known.params:
         lines += _parameter(param, values)
         lines += wrapped(tooltips.get(param.keyword, ""), WIDTH, "      ")
-    lines += _returned(known)
+    returns = ours.returns if ours else ()
+    lines += ["", "Returns:"] if returns else []
+    for name, kind, text in returns:
+        lines += [f"  {name} ({kind})", *wrapped(text, WIDTH, "      ")]
     return "\n".join(lines)
 
 
@@ -99,22 +104,3 @@ def _shown(value: Any, param: ParamInfo) -> str:
         return repr(param.choices[value])
     plain = value.tolist() if hasattr(value, "tolist") else value
     return f"{plain:g}" if isinstance(plain, float) else repr(plain)
-
-
-def _tooltips(known: FilterInfo) -> dict[str, str]:
-    from ..meshset.filters import BY_NAME
-
-    filter_ = BY_NAME.get(known.name)
-    return {p.name: p.tooltip for p in filter_.parameters} if filter_ else {}
-
-
-def _returned(known: FilterInfo) -> Sequence[str]:
-    from ..meshset.filters import BY_NAME
-
-    filter_ = BY_NAME.get(known.name)
-    if filter_ is None or not filter_.returns:
-        return []
-    lines = ["", "Returns:"]
-    for name, kind, text in filter_.returns:
-        lines += [f"  {name} ({kind})", *wrapped(text, WIDTH, "      ")]
-    return lines

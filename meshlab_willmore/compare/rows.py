@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
-import pymeshlab
-
-from ..demo.models import dented_cube
+from ..demo.models import dented_cube, set_of
 from ..meshset.filters import BY_NAME
 from ..options import FILTER
 from ..presets import decided_by
@@ -92,8 +90,5 @@ def preset_rows(presets: Iterable[str], given: Mapping[str, Any]) -> list[Row]:
 
 def warm_up(filter_name: str, given: Mapping[str, Any]) -> None:
     """Compile the kernels of our filter for these parameters, or load them from the cache."""
-    if filter_name not in BY_NAME:
-        return
-    ms = pymeshlab.MeshSet()
-    ms.add_mesh(pymeshlab.Mesh(*dented_cube()))
-    ms.apply_filter(filter_name, **given)
+    if filter_name in BY_NAME:
+        set_of(dented_cube()).apply_filter(filter_name, **given)

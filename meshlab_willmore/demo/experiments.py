@@ -19,6 +19,7 @@ from .models import (
     dented_cube,
     sampled_torus,
     scrambled,
+    set_of,
     surface_of,
     technical_part,
 )
@@ -102,8 +103,7 @@ def run_demo(folder: Path, notify: Notify, sizes: Sizes | None = None) -> DemoRe
 
 def _run_model(recorder: Recorder, name: str, surface: Surface, cameras: Cameras) -> None:
     """Flip the edges of a model, with meshes and pictures before and after."""
-    meshes = pymeshlab.MeshSet()
-    meshes.add_mesh(pymeshlab.Mesh(*surface), name)
+    meshes = set_of(surface, name)
     _run_flips(recorder, meshes, recorder.run_stage(meshes, name, "initial"), cameras)
 
 
@@ -121,20 +121,21 @@ def _run_flips(
     return after
 
 
+def _run_faithful(recorder: Recorder, surface: Surface, name: str) -> State:
+    """Flip the edges of a model by the preset that finds creases back."""
+    meshes = set_of(surface, name)
+    after = recorder.run_stage(meshes, name, "faithful", FAITHFUL), surface_of(meshes)
+    recorder.save(meshes, f"{name}-faithful")
+    return after
+
+
 def _run_part(recorder: Recorder, surface: Surface) -> None:
     """Flip the edges of a part as the paper does, and by the preset that finds creases back."""
-    states = []
-    for number, filters in enumerate((FLIPS, FAITHFUL)):
-        meshes = pymeshlab.MeshSet()
-        meshes.add_mesh(pymeshlab.Mesh(*surface), "part")
-        if not number:
-            initial = recorder.run_stage(meshes, "part", "scrambled")
-            recorder.save(meshes, "part-before")
-            states.append((initial, surface))
-        name = "faithful" if number else "Willmore flips"
-        states.append((recorder.run_stage(meshes, "part", name, filters), surface_of(meshes)))
-        recorder.save(meshes, f"part-{'faithful' if number else 'after'}")
-    recorder.save_picture("part", PART_CAMERA, *states)
+    meshes = set_of(surface, "part")
+    initial = recorder.run_stage(meshes, "part", "scrambled")
+    paper = _run_flips(recorder, meshes, initial, cameras={})
+    faithful = _run_faithful(recorder, surface, "part")
+    recorder.save_picture("part", PART_CAMERA, (initial, surface), paper, faithful)
 
 
 def _run_face(recorder: Recorder, path: Path, keep_one_of: int) -> None:
@@ -152,18 +153,15 @@ def _run_face(recorder: Recorder, path: Path, keep_one_of: int) -> None:
         "face: the scan's points, Delaunay triangulated in a stretched parameter domain"
     )
     face = stretched_triangulation(scan, keep_one_of=keep_one_of)
-    meshes = pymeshlab.MeshSet()
-    meshes.add_mesh(pymeshlab.Mesh(*face), "face")
+    meshes = set_of(face, "face")
     initial = recorder.run_stage(meshes, "face", "initial, cleaned", CLEANING)
-    faithful = pymeshlab.MeshSet()
-    faithful.add_mesh(pymeshlab.Mesh(*surface_of(meshes)), "face")
+    cleaned_face = surface_of(meshes)
     cameras = {"face": FACE_CAMERA, "face-closeup": CLOSEUP_CAMERA}
     paper = _run_flips(recorder, meshes, initial, cameras)
     recorder.run_stage(meshes, "face", "Taubin smoothing", SMOOTHING)
     recorder.save(meshes, "face-smoothed")
-    other = recorder.run_stage(faithful, "face", "faithful", FAITHFUL), surface_of(faithful)
-    recorder.save(faithful, "face-faithful")
-    recorder.save_picture("face-presets", CLOSEUP_CAMERA, paper, other)
+    faithful = _run_faithful(recorder, cleaned_face, "face")
+    recorder.save_picture("face-presets", CLOSEUP_CAMERA, paper, faithful)
 
 
 def _warm_up(notify: Notify) -> None:
@@ -176,8 +174,7 @@ def _warm_up(notify: Notify) -> None:
             notify("compiling (the first run only)")
         has_notified = True
 
-    meshes = pymeshlab.MeshSet()
-    meshes.add_mesh(pymeshlab.Mesh(*dented_cube()))
+    meshes = set_of(dented_cube())
     with followed(follow):
         for name, given in (*FLIPS, *FAITHFUL):
             meshes.apply_filter(name, **given)

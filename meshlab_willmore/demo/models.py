@@ -29,6 +29,13 @@ def surface_of(meshes: pymeshlab.MeshSet) -> Surface:
     return Surface(mesh.transformed_vertex_matrix(), mesh.face_matrix())
 
 
+def set_of(surface: Surface, name: str = "") -> pymeshlab.MeshSet:
+    """Return a set with one mesh."""
+    meshes = pymeshlab.MeshSet()
+    meshes.add_mesh(pymeshlab.Mesh(*surface), name)
+    return meshes
+
+
 def dented_cube(push: float = 0.05) -> Surface:
     """Return the unit cube with a vertex at each side's centre, pushed inside: model I.
 

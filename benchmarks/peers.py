@@ -15,7 +15,6 @@ planar flip aim at Delaunay triangulations.
 import argparse
 import functools
 import importlib
-import multiprocessing
 import sys
 
 import numba
@@ -25,7 +24,7 @@ import pymeshlab
 from benchmarks import machine
 from meshlab_willmore import optimize_flips
 from meshlab_willmore.demo.scan import scan_file
-from studies import models
+from studies import models, tools
 from tests import meshes
 
 OUR_FILTER = "our filter"
@@ -123,28 +122,8 @@ def is_installed(name):
 
 def curvature_seconds(vertices, faces, limit):
     """Its time in a process of its own, or None if that takes longer than `limit`."""
-    context = multiprocessing.get_context("spawn")
-    mine, its = context.Pipe(duplex=False)
-    process = context.Process(target=_curvature, args=(its, vertices, faces), daemon=True)
-    process.start()
-    its.close()
-    try:
-        # The first word comes when the mesh is there.
-        mine.recv()
-        return mine.recv() if mine.poll(limit) else None
-    except EOFError:
-        return None
-    finally:
-        process.kill()
-        process.join()
-
-
-def _curvature(pipe, vertices, faces):
-    name = "meshing_edge_flip_by_curvature_optimization"
-    ms = pymeshlab.MeshSet()
-    ms.add_mesh(pymeshlab.Mesh(vertices, faces))
-    pipe.send("ready")
-    pipe.send(machine.seconds_of(functools.partial(ms.apply_filter, name, **CURVATURE_OPTIONS)))
+    flipped = tools.flipped_by_curvature(limit, CURVATURE_OPTIONS, vertices, faces)
+    return None if flipped is None else flipped[1]
 
 
 # --- the tables ----------------------------------------------------------------------------------

@@ -41,7 +41,7 @@ def all_tools(searches=QUICK, limit=60.0):
     yield from settings(searches)
     for row in PEERS:
         if row.filter == CURVATURE:
-            yield Tool(row.name, functools.partial(_in_child, limit, row.given))
+            yield Tool(row.name, functools.partial(flipped_by_curvature, limit, row.given))
         else:
             yield Tool(row.name, functools.partial(_filtered, PLANAR, row.given))
     if importlib.util.find_spec("meshlib") is not None:
@@ -88,7 +88,7 @@ def _filtered(name, given, vertices, faces):
     return arrays_of(ms)[1], seconds
 
 
-def _in_child(limit, given, vertices, faces):
+def flipped_by_curvature(limit, given, vertices, faces):
     """MeshLab's curvature flip, which need not end, in a process that is killed then."""
     context = multiprocessing.get_context("spawn")
     mine, its = context.Pipe(duplex=False)

@@ -27,8 +27,6 @@ from .scripts import STANDARD_STREAM
 from .text import how_many_failed, in_window, printable
 
 if TYPE_CHECKING:
-    from distributed import Client
-
     from ..batch.recipe import Recipe
     from ..batch.records import Result
     from ..batch.runner import Batch
@@ -237,7 +235,9 @@ def _options(given: dict[str, Any], force: bool, table: Path | None, stack: Exit
 
     client = None
     if "scheduler" in given:
-        client = stack.enter_context(_client(given["scheduler"]))
+        from ..batch.cluster import client_of
+
+        client = stack.enter_context(closing(client_of(given["scheduler"])))
     if _is_resumed() and "log" not in given:
         raise WrongUse("--resume needs --json FILE.jsonl, which says what is done")
     return BatchOptions(
@@ -253,17 +253,6 @@ def _options(given: dict[str, Any], force: bool, table: Path | None, stack: Exit
         client=client,
         table=table,
     )
-
-
-@contextmanager
-def _client(address: str) -> Iterator[Client]:
-    from ..batch.cluster import client_of
-
-    client = client_of(address)
-    try:
-        yield client
-    finally:
-        client.close()
 
 
 def _report(result: Result) -> None:

@@ -173,17 +173,15 @@ def _check_free(moves: list[tuple[Path, Path]], path: Path, options: SaveOptions
         refuse_special(target)
         if target != path and target.is_file() and filecmp.cmp(source, target, shallow=False):
             continue
-        if options.written and target.resolve() in options.written:
+        exists = os.path.lexists(target)
+        is_of_batch = exists and options.is_own(target)
+        is_replaced = is_of_batch and target in (path, path.with_name(f"{path.name}.mtl"))
+        is_of_run = options.written is not None and target.resolve() in options.written
+        if is_of_run or (is_of_batch and not is_replaced):
             raise OSError(
                 f"cannot write {path}: {target} belongs to another output; use different folders"
             )
-        if os.path.lexists(target) and options.is_own(target):
-            if target in (path, path.with_name(f"{path.name}.mtl")):
-                continue
-            raise OSError(
-                f"cannot write {path}: {target} belongs to another output; use different folders"
-            )
-        if os.path.lexists(target) and not options.force:
+        if exists and not (is_replaced or options.force):
             raise FileExistsError(
                 f"cannot write {path}: {target} already exists; use --force to overwrite"
             )

@@ -56,21 +56,14 @@ _FOR_FILES = re.compile(
 )
 
 
-def text_of(data: bytes, source: str) -> str:
+def text_of(data: bytes) -> str:
     """The text of a script, by its byte order mark, its XML declaration, or as UTF-8.
 
     Raises
     ------
-    ScriptError
+    ValueError
         If the data is too large, empty, no XML, or not in the encoding that it says.
     """
-    try:
-        return _text_of(data)
-    except ValueError as error:
-        raise ScriptError(source, [Fault(str(error))]) from None
-
-
-def _text_of(data: bytes) -> str:
     if len(data) > LARGEST:
         raise ValueError(f"is larger than {LARGEST >> 20} MiB: not a filter script")
     if not data.strip():

@@ -91,13 +91,16 @@ def reading_of(data: bytes, source: str) -> Reading:
     ScriptError
         If it is no script at all.
     """
-    text = text_of(data, source)
+    try:
+        text = text_of(data)
+    except ValueError as error:
+        raise ScriptError(source, [Fault(str(error))]) from None
     reader = _parsed(text)
     xml = as_xml(text) if reader.may_be_loose else text
     if is_loose := xml != text:
         reader = _parsed(xml)
-    if reader.may_be_loose and (mended := with_entities(xml))[1]:
-        reader = _parsed(*mended)
+    if reader.may_be_loose and (fixed := with_entities(xml))[1]:
+        reader = _parsed(*fixed)
     if not reader.is_script:
         raise ScriptError(source, reader.faults)
     return reader.result()._replace(is_loose=is_loose)

@@ -28,7 +28,7 @@ _OWN = re.compile(r"[/\\]dev[/\\](?:fd[/\\](?P<number>\d+)|stdout|(?P<error>stde
 # The standard output, on all systems.
 STANDARD_OUTPUT = Path("/dev/stdout")
 
-# Ends the names of hidden folders beside outputs: what a killed process left can be told by it.
+# Ends the names of hidden folders beside outputs: it shows what a killed process left.
 draft_mark = ""
 # Those that are there at the moment, for a process that has to end at once.
 drafts: set[Path] = set()

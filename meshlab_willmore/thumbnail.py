@@ -22,7 +22,7 @@ OVERSAMPLING = 2
 # Of the smaller side of the picture.
 MARGIN = 0.04
 # Pixels that are drawn at a time: memory is a matter of these, not of the mesh.
-PIECE = 2_000_000
+CHUNK = 2_000_000
 
 # A key light from the upper left, and a weak one from the camera.
 KEY_LIGHT = np.array([-0.48, 0.52, 0.71])
@@ -77,13 +77,13 @@ def picture(
         corners = _on_screen(vertices, faces, view, columns, rows)
         shades = _shades(_normals(vertices[faces]) @ view.T)
         nearest = np.full(rows * columns, -np.inf)
-        for piece in _pieces(corners):
-            pixels, depths, owners = _fragments(corners[piece], columns, rows)
+        for chunk in _chunks(corners):
+            pixels, depths, owners = _fragments(corners[chunk], columns, rows)
             # Later ones overwrite earlier ones: the nearest comes last.
             order = np.argsort(depths, kind="stable")
             order = order[depths[order] > nearest[pixels[order]]]
             nearest[pixels[order]] = depths[order]
-            light.ravel()[pixels[order]] = shades[piece][owners[order]]
+            light.ravel()[pixels[order]] = shades[chunk][owners[order]]
             seen.ravel()[pixels[order]] = 1.0
     opacity = _averaged(seen)
     with np.errstate(invalid="ignore"):
@@ -140,12 +140,12 @@ def _on_screen(
     return flat[faces]
 
 
-def _pieces(corners: Array) -> Iterator[slice]:
-    """Slices of triangles that cover about `PIECE` pixels each."""
+def _chunks(corners: Array) -> Iterator[slice]:
+    """Slices of triangles that cover about `CHUNK` pixels each."""
     heights = np.ptp(corners[:, :, 1], axis=1)
     covered = np.abs(_normals(corners)[:, 2]) / 2.0 + heights + 1.0
-    piece = np.cumsum(covered) // PIECE
-    ends = [*(np.flatnonzero(np.diff(piece)) + 1).tolist(), len(corners)]
+    chunk = np.cumsum(covered) // CHUNK
+    ends = [*(np.flatnonzero(np.diff(chunk)) + 1).tolist(), len(corners)]
     for start, end in zip([0, *ends], ends, strict=False):
         yield slice(start, end)
 

@@ -55,7 +55,7 @@ def test_nearest_face_is_seen_in_any_order_of_faces():
 def test_pieces_make_the_same_picture(monkeypatch):
     vertices, faces = meshes.bumpy_sphere(300)
     whole = picture(vertices, faces, 80, 60)
-    monkeypatch.setattr(thumbnail, "PIECE", 100)
+    monkeypatch.setattr(thumbnail, "CHUNK", 100)
     assert picture(vertices, faces, 80, 60) == whole
 
 

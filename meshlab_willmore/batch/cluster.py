@@ -43,9 +43,9 @@ class Cluster(Generic[Key]):
         self,
         tasks: Iterable[tuple[Key, Task]],
         listen: Callable[[Key, Any], None] = lambda key, message: None,
-        wait: Callable[[], object] | None = None,
+        tick: Callable[[], object] | None = None,
     ) -> Iterator[tuple[Key, Attempted]]:
-        """As `Pool.ended`, but `wait` is never called.
+        """As `Pool.ended`, but `tick` is never called.
 
         Raises `ConnectionError` if the scheduler is lost.
         """
@@ -138,9 +138,9 @@ def _seat(settings: PoolSettings) -> Seat:
         for other in [key for key in _free if key != settings]:
             for seat in _free.pop(other):
                 seat.close()
-        waiting = _free.setdefault(settings, [])
-        if waiting:
-            return waiting.pop()
+        idle = _free.setdefault(settings, [])
+        if idle:
+            return idle.pop()
     threads = max(1, core_count() // get_worker().state.nthreads)
     return Seat(settings._replace(threads=threads))
 

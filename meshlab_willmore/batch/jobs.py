@@ -29,7 +29,7 @@ class Job(NamedTuple):
     """One run of the script on its input, or on several as layers; why it can't be read.
 
     One output is for the layer that is current in the end, several are for the first layers. The
-    report page is for the first input, and what became of it.
+    report page is for the first input and its result.
     """
 
     inputs: tuple[Path, ...]

@@ -207,23 +207,23 @@ class Pool(Generic[Key]):
         self,
         tasks: Iterable[tuple[Key, Task]],
         listen: Callable[[Key, Any], None] = lambda key, message: None,
-        wait: Callable[[], object] = lambda: None,
+        tick: Callable[[], object] = lambda: None,
     ) -> Iterator[tuple[Key, Attempted]]:
         """Do tasks, each when a worker is free; give their keys with how they ended, as they end.
 
-        `listen` is called with keys and messages, in other threads, and `wait` about twice a second
+        `listen` is called with keys and messages, in other threads, and `tick` about twice a second
         while no task ends.
         """
-        waiting = iter(tasks)
+        queue = iter(tasks)
         self._threads = [
-            threading.Thread(target=self._serve, args=(place, waiting, listen), daemon=True)
+            threading.Thread(target=self._serve, args=(place, queue, listen), daemon=True)
             for place in range(len(self._seats))
         ]
         for thread in self._threads:
             thread.start()
         left = len(self._threads)
         while left:
-            result = self._next(wait)
+            result = self._next(tick)
             if isinstance(result, BaseException):
                 raise result
             if result is None:
@@ -231,11 +231,11 @@ class Pool(Generic[Key]):
             else:
                 yield result
 
-    def _next(self, wait: Callable[[], object]) -> tuple[Key, Attempted] | BaseException | None:
+    def _next(self, tick: Callable[[], object]) -> tuple[Key, Attempted] | BaseException | None:
         while True:
             with suppress(Empty):
                 return self._results.get(timeout=_SECONDS)
-            wait()
+            tick()
 
     def left_over(self) -> Iterator[tuple[Key, Attempted]]:
         """What has ended, but was not given yet: the caller has stopped."""
@@ -248,14 +248,14 @@ class Pool(Generic[Key]):
     def _serve(
         self,
         place: int,
-        waiting: Iterator[tuple[Key, Task]],
+        queue: Iterator[tuple[Key, Task]],
         listen: Callable[[Key, Any], None],
     ) -> None:
         seat = self._seats[place]
         try:
             while True:
                 with self._lock:
-                    following = next(waiting, None)
+                    following = next(queue, None)
                 if following is None:
                     break
                 key, task = following

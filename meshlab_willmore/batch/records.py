@@ -48,7 +48,7 @@ class StepResult(NamedTuple):
 
 
 class Result(NamedTuple):
-    """What became of one input.
+    """The outcome for one input.
 
     Attributes
     ----------

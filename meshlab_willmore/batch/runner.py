@@ -261,7 +261,7 @@ class Batch:
             write_table(self._options.table, self._recipe.source, self._all_jobs, self._shown)
 
     def results(self, listener: Listener | None = None) -> Generator[Result, None, None]:
-        """Do the jobs; give what became of each as it ends, when that is recorded.
+        """Do the jobs; give the result of each as it ends, when that is recorded.
 
         Raises `MachineError` where all others would fail in the same way.
         """
@@ -298,7 +298,7 @@ class Batch:
             with suppress(OSError):
                 own.add(self._result(key, attempted))
 
-    def _results(self, wait: Callable[[], object]) -> Iterator[Result]:
+    def _results(self, tick: Callable[[], object]) -> Iterator[Result]:
         check_variables()
         tasks = []
         for key, job in enumerate(self.jobs):
@@ -316,8 +316,8 @@ class Batch:
             elif not isinstance(message, Phase):
                 self._heard[key].append(message)
 
-        wait()
-        for key, attempted in self._engine(len(tasks)).ended(tasks, listen, wait):
+        tick()
+        for key, attempted in self._engine(len(tasks)).ended(tasks, listen, tick):
             if attempted.ended.stops_all:
                 raise MachineError(attempted.ended.reason)
             yield self._result(key, attempted)

@@ -19,7 +19,7 @@ _HOUR, _MINUTE = 3600, 60
 
 
 class Summary:
-    """What came of inputs, added one by one; it does not grow with their number."""
+    """Counts and sums over results, added one by one; it does not grow with their number."""
 
     def __init__(self) -> None:
         self.counts: Counter[str] = Counter()

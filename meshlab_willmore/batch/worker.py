@@ -33,10 +33,10 @@ def main() -> None:
     settings: WorkerSettings = pickle.loads(_read(tasks))
     files.draft_mark = settings.mark
     memory.no_core_files()
-    waiting: SimpleQueue[bytes] = SimpleQueue()
-    threading.Thread(target=_receive, args=(tasks, waiting), daemon=True).start()
+    received: SimpleQueue[bytes] = SimpleQueue()
+    threading.Thread(target=_receive, args=(tasks, received), daemon=True).start()
     while True:
-        _send(answers, _ended(pickle.loads(waiting.get()), settings, answers))
+        _send(answers, _ended(pickle.loads(received.get()), settings, answers))
 
 
 def _own_streams() -> tuple[int, int]:
@@ -52,14 +52,14 @@ def _own_streams() -> tuple[int, int]:
     return tasks, answers
 
 
-def _receive(tasks: int, waiting: SimpleQueue[bytes]) -> None:
+def _receive(tasks: int, received: SimpleQueue[bytes]) -> None:
     """Pass on what the parent sends; when it has ended, end this process and its children.
 
     Without buffers of Python, whose locks a forked process would wait for.
     """
     with suppress(EOFError, OSError):
         while True:
-            waiting.put(_read(tasks))
+            received.put(_read(tasks))
     for folder in (*files.drafts, Path(os.environ["TMPDIR"])):
         shutil.rmtree(folder, ignore_errors=True)
     if hasattr(os, "killpg") and os.getpgrp() == os.getpid():

@@ -24,8 +24,8 @@ from .scripts import is_script
 
 LAYER_HELP = "an index from 0, c for the current layer, or x for the last one"
 
-# Options of meshlabserver that are gone, and what does their work.
-GONE = {
+# Options of meshlabserver that `run` does not have, and what does their work.
+REMOVED = {
     "-x": "--force overwrites existing files",
     "-d": "'meshlab-willmore filters' lists the filters and their parameters",
 }
@@ -283,8 +283,8 @@ def take_outputs(args: Sequence[str], ctx: click.Context) -> tuple[list[Output],
     """
     words = _Words(args)
     for word in words.left:
-        if word in GONE:
-            raise WrongUse(f"{word} of meshlabserver is gone: {GONE[word]}")
+        if word in REMOVED:
+            raise WrongUse(f"{word} of meshlabserver is gone: {REMOVED[word]}")
     done: list[Output] = []
     # Those of the last -o, and whether nothing but their own options has come since.
     last: list[Output] = []

@@ -72,16 +72,16 @@ def _matches(known: FilterInfo, words: str) -> bool:
 def _explained(known: FilterInfo) -> str:
     from ..meshset.filters import BY_NAME
 
-    ours = BY_NAME.get(known.name)
+    own = BY_NAME.get(known.name)
     lines = [known.name, f"  in MeshLab: {known.meshlab_name}"]
     lines += wrapped(known.summary, WIDTH, "  ")
     lines += ["", "Parameters: none"] if not known.params else ["", "Parameters:"]
     values = defaults(known)
-    tooltips = {p.name: p.tooltip for p in ours.parameters} if ours else {}
+    tooltips = {p.name: p.tooltip for p in own.parameters} if own else {}
     for param in known.params:
         lines += _parameter(param, values)
         lines += wrapped(tooltips.get(param.keyword, ""), WIDTH, "      ")
-    returns = ours.returns if ours else ()
+    returns = own.returns if own else ()
     lines += ["", "Returns:"] if returns else []
     for name, kind, text in returns:
         lines += [f"  {name} ({kind})", *wrapped(text, WIDTH, "      ")]

@@ -74,12 +74,12 @@ class Recorder:
             meshes.save_current_mesh(str(draft), binary=True)
         self.files.append(path)
 
-    def save_picture(self, name: str, camera: pictures.Camera, *states: State) -> None:
+    def save_picture(self, name: str, camera: pictures.Camera, *shown: State) -> None:
         """Draw states of a mesh side by side, if matplotlib is installed."""
         if not self._can_draw:
             return
         self.notify(f"picture: {name}")
-        figure = pictures.comparison(camera, *(_shot(*state) for state in states))
+        figure = pictures.comparison(camera, *(_shot(*state) for state in shown))
         path = self.folder / f"{name}.png"
         with atomic_write(path) as draft:
             figure.savefig(draft)

@@ -82,8 +82,8 @@ def stretched_triangulation(
     """
     points = scan.vertices[_thinned(scan, keep_one_of)]
     faces = planar_delaunay(scanner_plane(points), stretch)
-    leaves = _distance_to(scan, Surface(points, faces)) > REACH_MM
-    return Surface(points, faces[~leaves])
+    is_off = _distance_to(scan, Surface(points, faces)) > REACH_MM
+    return Surface(points, faces[~is_off])
 
 
 def scanner_plane(points: NDArray[np.float64]) -> NDArray[np.float64]:

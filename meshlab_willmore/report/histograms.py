@@ -18,7 +18,7 @@ LEFT, RIGHT, TOP, BOTTOM = 38, 8, 10, 22
 PERCENT = 100.0
 
 
-class Kind(NamedTuple):
+class Quantity(NamedTuple):
     """A quantity whose distribution is shown.
 
     Attributes
@@ -57,8 +57,8 @@ def _dihedral(mesh: Examined) -> Array:
     return angles[::2]
 
 
-KINDS = (
-    Kind(
+QUANTITIES = (
+    Quantity(
         "Angles of triangles",
         "°",
         lambda mesh: mesh.angles[np.isfinite(mesh.angles)],
@@ -66,7 +66,7 @@ KINDS = (
         [(degrees, f"{degrees}°") for degrees in range(0, 181, 30)],
         "An equilateral triangle has 60° at each corner.",
     ),
-    Kind(
+    Quantity(
         "Shapes of triangles",
         "",
         lambda mesh: mesh.shapes,
@@ -74,7 +74,7 @@ KINDS = (
         [(share / 5, f"{share / 5:g}") for share in range(6)],
         "1 is equilateral, 0 has no area.",
     ),
-    Kind(
+    Quantity(
         "Dihedral angles",
         "°",
         _dihedral,
@@ -83,7 +83,7 @@ KINDS = (
         "0° is flat, 180° folded back. Heights are logarithmic.",
         is_log=True,
     ),
-    Kind(
+    Quantity(
         "Valence of vertices",
         "",
         lambda mesh: mesh.valences[mesh.valences > 0].astype(np.float64),
@@ -91,7 +91,7 @@ KINDS = (
         [(float(count), f"{count}" if count < 12 else "12+") for count in range(2, 13, 2)],
         "Edges at a vertex; 6 is regular.",
     ),
-    Kind(
+    Quantity(
         "Willmore energy W of vertices",
         "",
         _log_energies,
@@ -114,10 +114,10 @@ KINDS = (
 
 def figures(before: Examined, after: Examined) -> str:
     """Return a figure for each kind of quantity, as HTML."""
-    return "\n".join(_figure(kind, kind.values(before), kind.values(after)) for kind in KINDS)
+    return "\n".join(_figure(kind, kind.values(before), kind.values(after)) for kind in QUANTITIES)
 
 
-def _figure(kind: Kind, before: Array, after: Array) -> str:
+def _figure(kind: Quantity, before: Array, after: Array) -> str:
     shares = [_shares(kind, values) for values in (before, after)]
     top = max(float(share.max()) for share in shares) or 1.0
     medians = " → ".join(_median(kind, values) for values in (before, after))
@@ -135,7 +135,7 @@ def _figure(kind: Kind, before: Array, after: Array) -> str:
     )
 
 
-def _median(kind: Kind, values: Array) -> str:
+def _median(kind: Quantity, values: Array) -> str:
     if not len(values):
         return "none"
     median = float(np.median(values))
@@ -144,7 +144,7 @@ def _median(kind: Kind, values: Array) -> str:
     return f"{10**median:.3g}" if kind.values is _log_energies else f"{median:.3g}{kind.unit}"
 
 
-def _shares(kind: Kind, values: Array) -> Array:
+def _shares(kind: Quantity, values: Array) -> Array:
     """The share of each bin of all values, in percent."""
     inside = np.clip(values, kind.edges[0], np.nextafter(kind.edges[-1], -np.inf))
     counts, _ = np.histogram(inside, kind.edges)
@@ -155,13 +155,13 @@ def _shares(kind: Kind, values: Array) -> Array:
 _LEAST = 1e-6
 
 
-def _heights(kind: Kind, shares: Array, top: float) -> Array:
+def _heights(kind: Quantity, shares: Array, top: float) -> Array:
     if not kind.is_log:
         return shares / top
     return 1.0 - np.log10(np.maximum(shares / top, _LEAST)) / np.log10(_LEAST)
 
 
-def _x(kind: Kind, value: float) -> float:
+def _x(kind: Quantity, value: float) -> float:
     first, last = kind.edges[0], kind.edges[-1]
     return LEFT + (value - first) / (last - first) * (WIDTH - LEFT - RIGHT)
 
@@ -170,7 +170,7 @@ def _y(height: float) -> float:
     return HEIGHT - BOTTOM - height * (HEIGHT - TOP - BOTTOM)
 
 
-def _outline(kind: Kind, heights: Array) -> str:
+def _outline(kind: Quantity, heights: Array) -> str:
     ground = f"{_y(0.0):.1f}"
     steps = [f"M{LEFT} {ground}"]
     for start, end, height in zip(kind.edges, kind.edges[1:], heights, strict=False):
@@ -178,7 +178,7 @@ def _outline(kind: Kind, heights: Array) -> str:
     return "".join([*steps, f"V{ground}Z"])
 
 
-def _axes(kind: Kind, top: float) -> str:
+def _axes(kind: Quantity, top: float) -> str:
     ground = _y(0.0)
     parts = [f'<path class="axis" d="M{LEFT} {ground}H{WIDTH - RIGHT}"/>']
     for value, text in kind.ticks:

@@ -8,7 +8,7 @@ import pytest
 
 from meshlab_willmore.cli import flip, main
 from meshlab_willmore.cli import run as run_module
-from meshlab_willmore.cli.arguments import GONE, take_outputs
+from meshlab_willmore.cli.arguments import REMOVED, take_outputs
 from meshlab_willmore.messages import WrongUse
 
 from .conftest import TAUBIN, call, cube_file, listing, loaded, script_file
@@ -112,7 +112,7 @@ def test_outputs_with_their_masks_and_layers(line, outputs, rest):
         ("-o a -m", "Option '-m' requires an argument"),
         # The first word is the option's even if it is wrong.
         ("-m xx vc", "'xx' is not one of 'vc'"),
-        *((f"s.mlx {word}", f"^{word} of meshlabserver is gone: ") for word in GONE),
+        *((f"s.mlx {word}", f"^{word} of meshlabserver is gone: ") for word in REMOVED),
     ],
 )
 def test_wrong_and_ambiguous_words_are_errors(line, problem):

@@ -6,6 +6,7 @@ import time
 import pytest
 
 from tests.cli.conftest import _folder, _quick_machine, listing  # noqa: F401
+from tests.workers import workers_here  # noqa: F401
 
 
 @pytest.fixture(autouse=True)

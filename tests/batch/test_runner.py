@@ -33,7 +33,7 @@ def statuses(results):
     return {result.input: result.status for result in results}
 
 
-def test_script_on_many_meshes_and_again():
+def test_script_on_many_meshes_and_again(request):
     """One test for all that needs workers anyway."""
     meshes_with_a_bad_one()
     script = script_file(FLIP, TAUBIN)
@@ -61,6 +61,8 @@ def test_script_on_many_meshes_and_again():
     assert [records.from_json(line).input for line in lines] == [r.input for r in results]
     assert {line["status"] for line in lines} == {"done", "bad file"}
 
+    # The rest is none of the workers' business.
+    request.getfixturevalue("workers_here")
     # What is done, or failed, stays; a line that was cut, an output that is not whole and another
     # input are done again.
     times = {path: path.stat().st_mtime_ns for path in Path("out").rglob("*.ply")}
@@ -142,6 +144,7 @@ def test_wrong_numbers_and_files_are_named(given, line):
     assert line in str(caught.value)
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_input_that_changes_while_it_is_processed_is_done_again():
     cube_file("a.ply")
     whole = Path.cwd() / "a.ply"
@@ -160,6 +163,7 @@ def test_input_that_changes_while_it_is_processed_is_done_again():
     assert statuses(again) == {}
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_failure_in_saving_is_named():
     cube_file("a.ply")
     (result,) = batch.run(lambda ms: ms.clear(), "a.ply", "{name}_out.ply")
@@ -253,6 +257,7 @@ def test_nothing_is_left_of_a_batch_that_is_stopped(number, temporary):
     assert listing("out") == []
 
 
+@pytest.mark.usefixtures("workers_here")
 @POSIX
 def test_what_a_killed_batch_left_is_removed_when_it_goes_on(temporary):
     """Kill -9 of all its processes leaves temporary folders."""

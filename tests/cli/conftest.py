@@ -16,6 +16,7 @@ from click.testing import CliRunner
 
 from meshlab_willmore.cli import main
 from tests import meshes
+from tests.workers import workers_here  # noqa: F401
 
 _PROGRESS = re.compile(r"^.*, \d+ s so far\n", re.MULTILINE)
 SAMPLES = Path(pymeshlab.__file__).parent / "tests" / "sample_meshes"
@@ -24,6 +25,12 @@ SAMPLES = Path(pymeshlab.__file__).parent / "tests" / "sample_meshes"
 @pytest.fixture(autouse=True)
 def _folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+
+
+@pytest.fixture(autouse=True)
+def _small_pictures(monkeypatch):
+    """Of report pages that this process writes: they take most of the time for a page."""
+    monkeypatch.setattr("meshlab_willmore.report.document.POSTER", (64, 48))
 
 
 @pytest.fixture(autouse=True)

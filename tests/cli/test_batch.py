@@ -49,6 +49,7 @@ def test_records_resume_shards_and_summary():
     assert refused.stderr.startswith("Error: out/four.off already exists")
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_several_meshes_are_flipped_as_one():
     cube_file("one.ply")
     cube_file("two.ply")
@@ -182,6 +183,7 @@ def test_no_batch_goes_on_from_the_standard_output():
 # --- dry runs ------------------------------------------------------------------------------------
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_dry_run_makes_no_folders():
     Path("in/deep").mkdir(parents=True)
     Path("out").mkdir()
@@ -206,6 +208,7 @@ def test_dry_run_makes_no_folders():
 # --- odd names -----------------------------------------------------------------------------------
 
 
+@pytest.mark.usefixtures("workers_here")
 @pytest.mark.skipif(os.name == "nt", reason="such a name can't be")
 def test_a_line_break_in_a_name_breaks_no_line():
     cube_file("a\nb.ply")

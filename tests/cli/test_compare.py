@@ -253,6 +253,7 @@ def test_initial_mesh_that_cannot_be_measured_is_an_error(cube, rows):
     assert set(rows) == {"becomes", "initial"}
 
 
+@pytest.mark.usefixtures("workers_here")
 @pytest.mark.parametrize(
     ("arguments", "line"),
     [

@@ -124,8 +124,7 @@ import subprocess, sys
 from pathlib import Path
 from meshlab_willmore.cli import compare, main
 from meshlab_willmore.compare import rows
-rows.PEERS = (rows.{ENDLESS},)
-rows.own_rows = lambda *_: []
+compare._rows = lambda *_: [rows.{ENDLESS}]
 class Noted(subprocess.Popen):
     def __init__(self, *arguments, **given):
         super().__init__(*arguments, **given)

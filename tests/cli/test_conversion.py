@@ -134,6 +134,7 @@ def test_a_mask_keeps_its_parts_beside_text(cube):
     ]
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_another_precision_is_another_batch(cube):
     log = ("--json", "log.jsonl", "--resume")
     assert call("run", "-i", cube, "-o", "{name}.off.ply", *log).exit_code == 0

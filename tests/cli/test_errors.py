@@ -10,7 +10,6 @@ from pathlib import Path
 
 import pytest
 
-from meshlab_willmore.batch import process
 from meshlab_willmore.cli import compare_row
 from meshlab_willmore.machine import MachineWarning, RoomError, SettingError
 from meshlab_willmore.mesh_files import saving
@@ -43,21 +42,8 @@ def test_run_blames_no_mesh(fault):
     assert (result.exit_code, result.stdout, result.stderr) == (1, "", f"Error: {fault}\n")
 
 
-IN_A_WORKER = """
-import sys; sys.path[:] = {path!r}
-from meshlab_willmore.batch import worker
-from meshlab_willmore.machine import RoomError, SettingError
-from meshlab_willmore.meshset import flips
-def fail(_):
-    raise FAULT
-flips.take = fail
-worker.main()  # {module}
-"""
-
-
-@pytest.mark.parametrize("fault", [FULL, WRONG], ids=["room", "setting"])
-def test_wrong_setting_ends_a_batch_and_full_disk_does_not(fault, monkeypatch):
-    monkeypatch.setattr(process, "_PROGRAM", IN_A_WORKER.replace("FAULT", repr(fault)))
+@pytest.mark.usefixtures("workers_here")
+def test_wrong_setting_ends_a_batch_and_full_disk_does_not(fault):
     cube_file("other.ply")
     result = call(
         "run", script_file(FLIP), "-i", cube_file(), "-i", "other.ply", "-o", "{name}_out.ply"

@@ -21,7 +21,9 @@ WHOLE_RUN = """
 import sys
 from meshlab_willmore.cli import main
 from meshlab_willmore.demo import experiments
-experiments.FULL_SIZE = experiments.Sizes(torus_points=200, keep_one_of=60)
+experiments.FULL_SIZE = experiments.Sizes(
+    torus_points=200, part_edge_percent=6.0, keep_one_of=60
+)
 main(["demo", "--output", sys.argv[1]])
 """
 LIGHT_RUN = """
@@ -182,14 +184,14 @@ def test_file_names_in_the_c_locale(tmp_path, locale):
     name = str(tmp_path / "ü日.off")
     Path(name).write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
     done = subprocess.run(
-        [sys.executable, "-m", "meshlab_willmore", "measure", name, "--json"],
+        [sys.executable, "-m", "meshlab_willmore", "run", "-i", name, "-o", f"{name}.ply"],
         env={**os.environ, "LC_ALL": locale},
         capture_output=True,
         text=True,
         check=False,
     )
     assert (done.returncode, done.stderr) == (0, "")
-    assert '"faces": 1' in done.stdout
+    assert f"{name} -> {name}.ply (3 vertices, 1 faces)" in done.stdout
 
 
 @pytest.mark.heavy

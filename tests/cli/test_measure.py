@@ -12,6 +12,7 @@ from tests import meshes
 from .conftest import SAMPLES, call, cube_file, spawn
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_table_layout():
     cube_file()
     result = call("measure", "cube.ply", SAMPLES / "bone.ply")
@@ -36,6 +37,7 @@ def test_json_is_the_whole_output():
     assert row == {"file": "cube.ply", "vertices": 14, "faces": 24, **totals}
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_file_that_cannot_be_measured_does_not_stop_the_others():
     cube_file()
     Path("bad.ply").write_text("no mesh")
@@ -56,6 +58,7 @@ def test_infinite_numbers_are_null_in_json():
     assert for_json(row) == shown
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_missing_file_does_not_stop_the_others():
     cube_file()
     Path("empty.ply").touch()

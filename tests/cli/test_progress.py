@@ -235,6 +235,7 @@ def test_verbose_prints_the_log(script, cube, command, given, words):
     assert logging.getLogger("meshlab_willmore").level == logging.NOTSET
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_verbose_in_a_batch_is_noted(cube):
     arguments = ["flip", cube, "{name}.off", "--json", "log.jsonl", "--force"]
     noted = "Note: -v has no effect in a batch"

@@ -202,6 +202,7 @@ def test_an_error_leaves_no_layer(project, monkeypatch):
     assert listing() == sorted([*before, "out_0.ply"])
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_projects_are_a_batch(project):
     project_file(("bone.ply", "b", True, np.eye(4)), path="other.mlp")
     project_file(("none.ply", "n", True, np.eye(4)), path="wrong.mlp")

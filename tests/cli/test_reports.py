@@ -84,7 +84,7 @@ def test_page_names_what_was_lost_and_escapes_it(monkeypatch):
     assert "&lt;script&gt;alert(1)&lt;:script&gt;.obj" in text
 
 
-def test_batch_has_a_table_and_pages(monkeypatch):
+def test_batch_has_a_table_and_pages(request):
     for name in ("one", "two"):
         cube_file(f"{name}.ply")
     Path("bad.ply").write_text(f"no mesh {EVIL}")
@@ -107,6 +107,7 @@ def test_batch_has_a_table_and_pages(monkeypatch):
     assert "picture" not in Path("log.jsonl").read_text()
 
     # A batch that goes on has its earlier results in the table, and their pages.
+    request.getfixturevalue("workers_here")
     Path("one.ply").touch()
     again = call(*words, "--report", "all.html", "--report", "pages/{name}.html",
                  "--json", "log.jsonl", "--resume")  # fmt: skip
@@ -116,6 +117,7 @@ def test_batch_has_a_table_and_pages(monkeypatch):
     assert table.links == ["pages/one.html", "pages/two.html"]
 
 
+@pytest.mark.usefixtures("workers_here")
 @pytest.mark.parametrize("option", ["--resume", "--retry-failed"])
 @pytest.mark.parametrize("name", ["mine.html", "{name}.html"])
 def test_batch_that_goes_on_replaces_no_page_of_others(cube, option, name):
@@ -135,6 +137,7 @@ def test_batch_that_goes_on_replaces_no_page_of_others(cube, option, name):
     assert "<title>" in file.read_text()
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_a_mesh_that_is_named_twice_has_two_lines_rows_and_pages(cube):
     words = ["flip", cube, cube, "flipped_{index}.off", "--workers", 1]
     report = ["--report", "all.html", "--report", "page_{index}.html"]
@@ -147,6 +150,7 @@ def test_a_mesh_that_is_named_twice_has_two_lines_rows_and_pages(cube):
     assert table.links == ["page_1.html", "page_2.html"]
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_each_share_has_a_table_of_its_own():
     # The first share has "three.ply", the second "one.ply".
     for name in ("three", "one"):
@@ -255,6 +259,7 @@ def test_table_from_python_does_not_replace_the_log(cube):
     assert not Path("t.html").exists()
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_table_and_page_of_the_only_match(cube):
     report = ["--report", "all.html", "--report", "{name}.html"]
     result = call("flip", "c*.ply", "x_{name}.off", *report)
@@ -284,6 +289,7 @@ def test_nothing_to_compare_is_said(cube):
     assert not Path("page.html").exists()
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_page_names_the_layer_that_it_shows(cube):
     two = cube_file("two.ply")
     words = ["-i", cube, two, "--layers"]
@@ -331,7 +337,7 @@ def test_mesh_without_a_page_is_saved_all_the_same(cube):
     assert listing(".") == ["cube.ply", "out.ply", "script.mlx"]
 
 
-@pytest.mark.slow
+@pytest.mark.usefixtures("workers_here")
 def test_comparison_has_a_table_and_pages(cube):
     words = ["compare", cube, "--preset", "faithful", "--preset", "shape", "--no-peers"]
     result = call(*words, "--report", "rows.html", "--report", "{name}.html")
@@ -363,6 +369,7 @@ def test_pages_of_a_comparison_do_not_replace_each_other(cube, names, use):
     assert listing(".") == ["cube.ply"]
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_batch_from_python_has_them_too():
     cube_file("one.ply")
     cube_file("two.ply")

@@ -103,6 +103,7 @@ def test_script_from_a_pipe(script, cube, before):
 # Several inputs
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_several_inputs_have_an_output_each(script, cube):
     cube_file("other.ply")
     Path("out").mkdir()
@@ -113,6 +114,7 @@ def test_several_inputs_have_an_output_each(script, cube):
     assert sorted(names) == ["cube.ply", "other.ply"]
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_failed_input_does_not_stop_the_others(script, cube):
     Path("bad.ply").write_text("no mesh")
     cube_file("last.ply")

@@ -12,6 +12,7 @@ from meshlab_willmore.cli.text import fitted, in_columns, width
 from .conftest import call, cube_file, script_file
 
 
+@pytest.mark.usefixtures("workers_here")
 @pytest.mark.parametrize("columns", ["80", "100", "132", "40"])
 def test_table_fits_into_the_window(monkeypatch, tmp_path, columns):
     monkeypatch.setenv("COLUMNS", columns)

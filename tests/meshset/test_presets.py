@@ -10,6 +10,7 @@ from meshlab_willmore.mlx.read import read_bytes
 from tests import meshes
 from tests.cli.conftest import call
 from tests.meshset.conftest import FLIP, script_of, set_of
+from tests.workers import workers_here  # noqa: F401
 
 # With the JIT off, the guard against intersections alone takes minutes.
 pytestmark = pytest.mark.heavy
@@ -84,6 +85,7 @@ def test_a_plain_number_is_no_deviation_as_in_pymeshlab(value):
         ms.apply_filter(FLIP, maxdeviation=value)
 
 
+@pytest.mark.usefixtures("workers_here")
 @pytest.mark.parametrize("share", ["0.5%", "0.02"])
 def test_the_command_line_takes_both_alone_in_a_batch_and_for_comparisons(
     share, tmp_path, monkeypatch

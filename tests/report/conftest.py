@@ -100,6 +100,12 @@ def browse(chromium):
     return opened
 
 
+@pytest.fixture
+def small_pictures(monkeypatch):
+    """The pictures take nearly all the time for a page."""
+    monkeypatch.setattr("meshlab_willmore.report.document.POSTER", (64, 48))
+
+
 @pytest.fixture(scope="session")
 def flipped():
     """A mesh and what flips along its Willmore energy make of it."""

@@ -17,9 +17,10 @@ from meshlab_willmore.demo.models import surface_of
 from meshlab_willmore.demo.scan import ScanNotFoundError, scan_file
 from meshlab_willmore.mesh.build import changed_edges
 from meshlab_willmore.report import page
-from meshlab_willmore.report.document import for_script
+from meshlab_willmore.report.document import POSTER, for_script
 from tests import meshes
 
+pytestmark = pytest.mark.usefixtures("small_pictures")
 EVIL = "</script><script>alert(1)</script><img src=x onerror=alert(2)>\"'&"
 
 
@@ -119,7 +120,8 @@ def test_data_ends_no_script():
 
 
 @pytest.mark.slow
-def test_pair_of_the_face_scan_takes_three_megabytes_at_most(tmp_path):
+def test_pair_of_the_face_scan_takes_three_megabytes_at_most(tmp_path, monkeypatch):
+    monkeypatch.setattr("meshlab_willmore.report.document.POSTER", POSTER)
     try:
         path = scan_file()
     except ScanNotFoundError as missing:

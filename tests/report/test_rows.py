@@ -1,6 +1,7 @@
 """What the page says of meshes that hardly differ, and of those that are no flips of each other."""
 
 import numpy as np
+import pytest
 
 from meshlab_willmore import optimize_flips
 from meshlab_willmore.report.examine import examined
@@ -10,6 +11,8 @@ from meshlab_willmore.report.table import Entry, percent, table_page
 from tests import meshes
 
 from .test_document import elements
+
+pytestmark = pytest.mark.usefixtures("small_pictures")
 
 
 def test_unchanged_mesh_has_no_rounding_errors():

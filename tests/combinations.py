@@ -26,13 +26,22 @@ ENERGIES_AND_RULES = [
 
 
 def products(*parameters):
-    """Parametrize by whole products; by day such rows only that each two values meet in one."""
+    """Parametrize by whole products; by day such rows only that each two values meet in one.
+
+    A value may be one or several with marks: ``pytest.param(value, ..., marks=...)``.
+    """
     daily = pairwise(*parameters)
-    rows = itertools.product(*(enumerate(values) for values in parameters))
-    return [
-        pytest.param(*values, marks=() if numbers in daily else pytest.mark.nightly)
-        for numbers, values in (zip(*row, strict=True) for row in rows)
-    ]
+    rows = itertools.product(*(enumerate(map(_marked, values)) for values in parameters))
+    found = []
+    for numbers, values in (zip(*row, strict=True) for row in rows):
+        marks = [mark for value in values for mark in value.marks]
+        marks += [] if numbers in daily else [pytest.mark.nightly]
+        found.append(pytest.param(*(one for value in values for one in value.values), marks=marks))
+    return found
+
+
+def _marked(value):
+    return value if isinstance(value, type(pytest.param())) else pytest.param(value)
 
 
 def pairwise(*parameters):

@@ -223,13 +223,14 @@ def test_gain_is_before_minus_after_on_a_closed_mesh():
 @pytest.mark.slow
 def test_gain_is_the_drop_of_the_energy_in_its_own_unit(energy, search):
     total, power = KERNELS[energy].total, table.ENERGIES[energy].length_power
+    options = {"energy": energy, "search": search, "depth": 3, "sweeps": 20}
     for vertices, faces in (meshes.torus(60, None, 1), PATCH, BUMPY):
-        result = optimize_flips(vertices, faces, energy=energy, search=search)
+        result = optimize_flips(vertices, faces, **options)
         before, after = (total(build(vertices, f)) for f in (faces, result.faces))
         assert result.flips > 5
         assert result.gain == pytest.approx(before - after, rel=1e-9)
     # Exact, and an energy in lengths would stop early if its tolerance were none.
-    shrunk = optimize_flips(vertices * 2.0**-20, faces, energy=energy, search=search)
+    shrunk = optimize_flips(vertices * 2.0**-20, faces, **options)
     assert shrunk.gain == result.gain * 2.0 ** (-20 * power)
     assert shrunk.flips == result.flips
 
@@ -244,8 +245,9 @@ def test_the_searches_are_the_choices_of_the_option():
 @pytest.mark.slow
 def test_every_search_is_worth_it_on_every_energy(energy, search):
     """No single flip that is allowed lowers the energy at the end: a scan over all edges."""
-    vertices, faces = meshes.bumpy_sphere(150, 4)
-    result = optimize_flips(vertices, faces, energy=energy, search=search)
+    vertices, faces = meshes.bumpy_sphere(100, 4)
+    options = {"energy": energy, "search": search, "depth": 3, "sweeps": 20}
+    result = optimize_flips(vertices, faces, **options)
     mesh = build(vertices, result.faces)
     fold = guards.fold_limits(90.0)
     left = [

@@ -13,7 +13,7 @@ from meshlab_willmore.mesh.parallel import CHUNK
 from meshlab_willmore.optimize import optimize_flips
 from meshlab_willmore.search import parallel_greedy
 from tests import meshes, reference
-from tests.combinations import BOTH_WILLMORE, ENERGIES, ENERGIES_AND_RULES
+from tests.combinations import BOTH_WILLMORE, ENERGIES, ENERGIES_AND_RULES, products
 from tests.results import check
 
 HEAVY = pytest.mark.heavy
@@ -241,24 +241,26 @@ ODD = {
 }
 
 
-@pytest.mark.parametrize("name", ODD)
-@pytest.mark.parametrize(("energy", "monotone"), ENERGIES_AND_RULES)
-@pytest.mark.parametrize("search", ["parallel greedy", "greedy", HEAVY_DEPTH])
-def test_odd_meshes_get_a_right_result(search, energy, monotone, name):
+@pytest.mark.parametrize(
+    ("search", "energy", "monotone", "name", "foldangle"),
+    products(
+        ["parallel greedy", "greedy", HEAVY_DEPTH], ENERGIES_AND_RULES, list(ODD), [90.0, 180.0]
+    ),
+)
+def test_odd_meshes_get_a_right_result(search, energy, monotone, name, foldangle):
     vertices, faces = ODD[name]
-    for foldangle in (90.0, 180.0):
-        result = optimize_flips(
-            vertices, faces, energy=energy, search=search, monotone=monotone, foldangle=foldangle
-        )
-        check(vertices, faces, result)
-        assert result.converged
-        if monotone and energy in BOTH_WILLMORE:
-            objective = [
-                np.nan_to_num(reference.edge_angles(np.asarray(vertices, float), f)[1]).sum()
-                for f in (np.asarray(faces), result.faces)
-                if name not in ("coincident vertices", "all in one point", "all on a line")
-            ]
-            assert objective == sorted(objective, reverse=True) or np.ptp(objective) < 1e-9
+    result = optimize_flips(
+        vertices, faces, energy=energy, search=search, monotone=monotone, foldangle=foldangle
+    )
+    check(vertices, faces, result)
+    assert result.converged
+    if monotone and energy in BOTH_WILLMORE:
+        objective = [
+            np.nan_to_num(reference.edge_angles(np.asarray(vertices, float), f)[1]).sum()
+            for f in (np.asarray(faces), result.faces)
+            if name not in ("coincident vertices", "all in one point", "all on a line")
+        ]
+        assert objective == sorted(objective, reverse=True) or np.ptp(objective) < 1e-9
 
 
 @pytest.mark.heavy

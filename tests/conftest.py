@@ -72,7 +72,12 @@ if not JIT_IS_OFF and not IS_WORKER:
 
 def pytest_sessionstart(session):
     has_workers = getattr(session.config.option, "numprocesses", None)
-    if JIT_IS_OFF or IS_WORKER or not has_workers or session.config.option.collectonly:
+    if JIT_IS_OFF or session.config.option.collectonly:
+        return
+    if IS_WORKER or not has_workers:
+        from tests.called_kernels import keep
+
+        keep()
         return
     subprocess.run([sys.executable, "-c", WARM_UP], check=True)
     cache = Path(os.environ["NUMBA_CACHE_DIR"])

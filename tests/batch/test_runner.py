@@ -85,8 +85,9 @@ def test_script_on_many_meshes_and_again(request):
     elsewhere = batch.run(script, "in/a/*.ply", "out/{index}.ply", resume=True, **given)
     assert statuses(elsewhere) == {"in/a/one.ply": "done", "in/a/more.ply": "done"}
     # Another script is another batch.
-    other = [*batch.run(script_file(FLIP), "in/a/*.ply", None, resume=True, **given)]
-    assert statuses(other) == {"in/a/one.ply": "done", "in/a/more.ply": "done"}
+    other = [script_file(FLIP), "in/a/*.ply", "out/{index}.ply"]
+    others = list(batch.run(*other, resume=True, force=True, **given))
+    assert statuses(others) == {"in/a/one.ply": "done", "in/a/more.ply": "done"}
 
 
 HASH = """

@@ -12,10 +12,23 @@ import pytest
 
 from tests.extras import IS_CI
 
-from .pages import COMMAND, EXAMPLE, NOT_RUN, PRINTED, README, blocks, name_of, pages
+from .pages import COMMAND, DOCS, EXAMPLE, NOT_RUN, PRINTED, README, blocks, name_of, pages
 
 pytestmark = [pytest.mark.heavy, pytest.mark.slow]
-PAGES = [page for page in pages() if any(block.runs for block in blocks(page))]
+# What a reader begins with; the commands of the guides run where changes are checked, and nightly.
+FIRST = (README, DOCS / "start.md")
+
+
+def runs_daily(page):
+    """Whether it is one of the first, or starts no commands."""
+    return IS_CI or page in FIRST or all(b.language != "sh" for b in blocks(page) if b.runs)
+
+
+PAGES = [
+    pytest.param(page, marks=() if runs_daily(page) else pytest.mark.nightly, id=name_of(page))
+    for page in pages()
+    if any(block.runs for block in blocks(page))
+]
 
 
 def missing(page):
@@ -53,7 +66,7 @@ def without_numbers(text):
     return {re.sub(r"\d+(\.\d+)?", "#", line).strip() for line in text.splitlines()}
 
 
-@pytest.mark.parametrize("page", PAGES, ids=name_of)
+@pytest.mark.parametrize("page", PAGES)
 def test_the_code_of_a_page_runs(page, checkout, monkeypatch):
     """All blocks in order, in one folder, Python in one process. README activates by itself."""
     if not IS_CI and missing(page):

@@ -1,7 +1,5 @@
 """The viewer in a browser: what is seen, by mouse, keyboard and on a narrow screen."""
 
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -13,8 +11,7 @@ from tests import meshes
 MODES = ["faces", "wires", "energy", "dihedral", "flips", "reflection"]
 # Of the picture of one mesh; differences of colours that are seen.
 MUCH, SEEN = 0.15, 30
-ROOT = Path(__file__).parents[2]
-GUIDE = ROOT / "docs" / "guide" / "report_page.png"
+GUIDE = Path(__file__).parents[2] / "docs" / "guide" / "report_page.png"
 
 pytestmark = pytest.mark.slow
 
@@ -223,9 +220,10 @@ def test_picture_in_the_guide_is_of_this_page(chromium, tmp_path):
     """But for the date on it; another machine draws letters and rims a little differently."""
     from PIL import Image
 
+    from studies import page_picture
+
     picture = tmp_path / "page.png"
-    command = [sys.executable, "-m", "studies.page_picture", picture]
-    subprocess.run(command, cwd=ROOT, check=True)
+    page_picture.make(chromium, picture)
     both = [np.asarray(Image.open(file).convert("RGB")).astype(int) for file in (picture, GUIDE)]
     assert both[0].shape == both[1].shape
     assert differs(*both) < 0.05

@@ -93,6 +93,7 @@ def cuts(vertices, faces):
 
 
 @pytest.mark.heavy
+@pytest.mark.slow
 def test_the_faithful_preset_never_leaves_more_cut_faces(monkeypatch):
     """On very bumpy spheres, faces come to cut others without the guard."""
     grew = 0

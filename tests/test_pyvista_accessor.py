@@ -56,6 +56,7 @@ print(type(mesh.willmore).__name__, pyvista.registered_accessors()[-1].name)
     assert run(code) == "WillmoreAccessor willmore\n"
 
 
+@pytest.mark.slow
 def test_with_an_older_pyvista_the_class_does_the_same():
     code = """
 import pyvista

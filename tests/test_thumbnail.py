@@ -61,14 +61,14 @@ def test_pieces_make_the_same_picture(monkeypatch):
 
 def test_pixels_are_those_whose_centres_are_inside():
     vertices, faces = meshes.bumpy_sphere(60)
-    flat = thumbnail._on_screen(thumbnail._in_unit_cube(vertices), faces, FRONT, 40, 30)
+    flat = thumbnail._on_screen(thumbnail._in_unit_cube(vertices), faces, FRONT, 20, 15)
     owned = set()
-    numbers, depths, owners = thumbnail._fragments(flat, 40, 30)
+    numbers, depths, owners = thumbnail._fragments(flat, 20, 15)
     for pixel, owner in zip(numbers.tolist(), owners.tolist(), strict=True):
         owned.add((pixel, owner))
     for f, (a, b, c) in enumerate(flat[:, :, :2]):
-        for pixel in range(40 * 30):
-            p = np.array([pixel % 40 + 0.5, pixel // 40 + 0.5])
+        for pixel in range(20 * 15):
+            p = np.array([pixel % 20 + 0.5, pixel // 20 + 0.5])
             turns = [np.linalg.det([y - x, p - x]) for x, y in ((a, b), (b, c), (c, a))]
             is_inside = min(turns) > 1e-9 or max(turns) < -1e-9
             is_outside = min(turns) < -1e-9 < 1e-9 < max(turns)

@@ -41,6 +41,7 @@ def thing_left():
 
 
 @POSIX
+@pytest.mark.slow
 def test_bad_tasks_cost_themselves_only():
     bad = [
         task("crash"),

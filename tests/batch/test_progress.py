@@ -61,6 +61,7 @@ def test_meshes_done_of_all_with_their_names(inputs):
         assert any(f" of 4 meshes, {result.input}: done" in text for _, text in heard)
 
 
+@pytest.mark.slow
 def test_a_stop_ends_the_batch_with_all_that_was_done_on_record(inputs):
     taken = []
 

@@ -10,6 +10,7 @@ import pytest
 from .conftest import FLIP, TAUBIN, call, cube_file, listing, same_mesh, script_file, spawn
 
 
+@pytest.mark.slow
 def test_records_resume_shards_and_summary():
     """One test for all that needs workers anyway."""
     # Both shares have good ones: "three" and "bad" are the first.
@@ -64,6 +65,7 @@ def test_several_meshes_are_flipped_as_one():
     assert [record["returned"][0]["returned"]["flips"] for record in records] == [10, 10]
 
 
+@pytest.mark.slow
 def test_limit_makes_a_batch_of_one_mesh(cube):
     endless = ("Laplacian Smooth", {"stepSmoothNum": ("RichInt", 10**9)})
     script = script_file(TAUBIN, endless)
@@ -109,6 +111,7 @@ def test_scheduler_that_is_not_there(cube):
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes")
+@pytest.mark.slow
 def test_records_go_into_a_pipe(cube):
     os.mkfifo("pipe.jsonl")
     arguments = ["run", script_file(TAUBIN), "-i", cube, "-o", "out.ply", "--json", "pipe.jsonl"]
@@ -150,6 +153,7 @@ def test_summary_of_other_files_is_refused(cube):
 
 
 @pytest.mark.parametrize("command", ["run", "flip"])
+@pytest.mark.slow
 def test_records_on_the_standard_output_and_nothing_else(command):
     cube_file("one.ply")
     Path("bad.ply").write_text("no mesh")

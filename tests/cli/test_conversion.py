@@ -56,6 +56,7 @@ def test_nothing_is_overwritten_without_force(cube):
     assert len(loaded("out.off").faces) == 24
 
 
+@pytest.mark.slow
 def test_several_inputs_are_a_batch_with_records_and_a_log(cube):
     cube_file("other.ply")
     Path("bad.ply").write_text("no mesh")

@@ -84,6 +84,7 @@ def test_page_names_what_was_lost_and_escapes_it(monkeypatch):
     assert "&lt;script&gt;alert(1)&lt;:script&gt;.obj" in text
 
 
+@pytest.mark.slow
 def test_batch_has_a_table_and_pages(request):
     for name in ("one", "two"):
         cube_file(f"{name}.ply")

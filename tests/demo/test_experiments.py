@@ -190,6 +190,7 @@ def test_closeup_lies_within_the_face(cleaned):
 
 
 @pytest.mark.heavy
+@pytest.mark.slow
 def test_the_demo_goes_on_without_the_scan(no_scan, tmp_path):
     lines = []
     result = run_demo(tmp_path, lines.append, SMALL)

@@ -12,16 +12,14 @@ import pytest
 
 from tests.extras import IS_CI
 
-from .pages import COMMAND, DOCS, EXAMPLE, NOT_RUN, PRINTED, README, blocks, name_of, pages
+from .pages import COMMAND, EXAMPLE, NOT_RUN, PRINTED, README, blocks, name_of, pages
 
 pytestmark = [pytest.mark.heavy, pytest.mark.slow]
-# What a reader begins with; the commands of the guides run where changes are checked, and nightly.
-FIRST = (README, DOCS / "start.md")
 
 
 def runs_daily(page):
-    """Whether it is one of the first, or starts no commands."""
-    return IS_CI or page in FIRST or all(b.language != "sh" for b in blocks(page) if b.runs)
+    """Whether it is README, or starts no commands: those run where changes are checked only."""
+    return IS_CI or page == README or all(b.language != "sh" for b in blocks(page) if b.runs)
 
 
 PAGES = [

@@ -80,6 +80,7 @@ def test_in_a_plane_a_flip_counts_nothing_in_any_position():
     assert result.deviation < SLACK
 
 
+@pytest.mark.slow
 def test_many_random_flips_stay_within_the_bound():
     """The theorem itself, without a search: any legal flips, thousands of them."""
     vertices, faces = meshes.bumpy_sphere(50, 5, bump=0.5)
@@ -99,6 +100,7 @@ def test_many_random_flips_stay_within_the_bound():
 @pytest.mark.heavy
 @pytest.mark.parametrize("search", SEARCH.choices)
 @pytest.mark.parametrize("energy", ["virtual willmore", "mean curvature", "gaussian curvature"])
+@pytest.mark.slow
 def test_no_search_takes_the_surface_farther(energy, search):
     vertices, faces = meshes.bumpy_sphere(60, 1, bump=0.6)
     options = {"energy": energy, "search": search, "sweeps": 3, "depth": 3, "foldangle": 180.0}

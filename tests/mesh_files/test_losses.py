@@ -202,6 +202,7 @@ def test_ordinary_files_give_no_note(capfd):
     assert capfd.readouterr().err == ""
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_commands_print_a_note_once():
     Path("a.off").write_bytes(as_off())
     note = "Note: a.off: vertices with NaN or infinite coordinates, left out with their faces: 2\n"

@@ -89,8 +89,11 @@ def pytest_sessionstart(session):
 
 def pytest_collection_modifyitems(config, items):
     # After a native filter that failed, PyMeshLab prints nothing more in a process: tests that read
-    # what it prints come first, at the beginning of the first worker's share.
-    items.sort(key=lambda item: "capfd" not in item.fixturenames)
+    # what it prints come first, at the beginning of the first worker's share. Then those that take
+    # so long that they have a timeout of their own: no worker should wait for one in the end.
+    items.sort(
+        key=lambda item: ("capfd" not in item.fixturenames, not item.get_closest_marker("timeout"))
+    )
     if JIT_IS_OFF:
         for item in items:
             if item.get_closest_marker("heavy"):

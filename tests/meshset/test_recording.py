@@ -56,6 +56,7 @@ def apply_chain(ms, chain):
 # Recording
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("chain", CHAINS, ids="-".join)
 def test_a_saved_script_gives_the_same_meshes_to_the_last_bit(chain, tmp_path, capfd):
     called = sphere()

@@ -12,27 +12,25 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .energy import area, mean_curvature
-from .energy.angles import NO_ANGLES, add
+from .energy.angles import AngleSum, ComplexAngle, add
 from .energy.gaussian_curvature import angle_defects
 from .energy.triangles import corners
-from .energy.willmore import edge_angle, edge_complex_angle
+from .energy.willmore import edge_angle, quad_angle
 from .guards import triangle_shape
 from .guards.bvh import build_bvh
 from .guards.intersections import mark_intersecting
 from .mesh.build import build, interior_vertices
 from .mesh.halfedge import Mesh
-from .mesh.jit import allocating_jit, at, jit
+from .mesh.jit import allocating_jit, at, inlined, inner, jit
+from .mesh.lanes import LANES, QUAD_ROWS, fill_quad, point_at, quad_at, write_point
 from .mesh.parallel import thread_pool
 from .mesh.validate import check_mesh, in_input_units, to_unit_scale
 
 FULL_TURN = 2.0 * math.pi
 # Faces of one call of a kernel, which no interrupt ends.
 FACES_PER_CALL = 20_000
-# Half-edges, and faces, of one sum; constants of their own, as kernels read them.
-HALF_EDGES_PER_SUM = 2048
+# Faces of one sum: no lane gets more than 98 angles, of which the product can't get too small.
 FACES_PER_SUM = 1024
-# Angles that are multiplied as complex numbers before these get too small.
-MOST_PRODUCTS = 64
 
 
 class Measures(NamedTuple):
@@ -229,68 +227,153 @@ def intersecting_faces_of(mesh: Mesh) -> NDArray[np.bool_]:
 
 def willmore_energy_of(mesh: Mesh) -> float:
     """Return the Willmore energy of a half-edge mesh, as `willmore_energy` does."""
-    chunks = -(-len(mesh.origin) // HALF_EDGES_PER_SUM)
-    task = _Parts(mesh, interior_vertices(mesh), np.zeros(chunks), np.zeros(chunks))
-    with thread_pool() as parallel_for:
-        parallel_for(_add_angles, task, len(mesh.origin), HALF_EDGES_PER_SUM)
-    half_turns = task.half_turns.sum() - 2.0 * np.count_nonzero(task.interior)
-    energy = float(math.pi * half_turns + task.rest.sum())
-    # Undefined angles leave out single vertices.
-    return energy if math.isfinite(energy) else float(_vertex_energy(mesh).sum())
+    return quality_of(mesh, interior_vertices(mesh)).willmore_energy
 
 
 class Quality(NamedTuple):
-    """What flips are judged by, beside the Willmore energy.
+    """What flips are judged by.
 
     Attributes
     ----------
-    absolute_mean_curvature : float
+    willmore_energy, absolute_mean_curvature : float
         As in `Measures`.
     mean_shape, worst_shape : float
         Mean and least of `triangle_shapes`; 1 without faces.
     """
 
+    willmore_energy: float
     absolute_mean_curvature: float
     mean_shape: float
     worst_shape: float
 
 
-def quality_of(mesh: Mesh) -> Quality:
-    """Return the Quality of a half-edge mesh, in its own units."""
+def quality_of(mesh: Mesh, interior: NDArray[np.bool_]) -> Quality:
+    """Return the Quality of a half-edge mesh with these interior vertices, in its own units."""
     faces = len(mesh.origin) // 3
     if not faces:
-        return Quality(0.0, 1.0, 1.0)
-    chunks = -(-faces // FACES_PER_SUM)
-    task = _QualityParts(mesh, np.zeros(chunks), np.zeros(chunks), np.ones(chunks))
+        return Quality(0.0, 0.0, 1.0, 1.0)
+    sums = _Sums(mesh, interior, *np.empty((5, -(-faces // FACES_PER_SUM))))
     with thread_pool() as parallel_for:
-        parallel_for(_add_quality, task, faces, FACES_PER_SUM)
-    shapes = math.fsum(task.shapes) / faces
-    return Quality(float(task.bends.sum()), shapes, float(task.worst.min()))
+        parallel_for(_add_up, sums, faces, FACES_PER_SUM)
+    half_turns = sums.half_turns.sum() - 2.0 * np.count_nonzero(interior)
+    energy = float(math.pi * half_turns + sums.rest.sum())
+    return Quality(
+        # Undefined angles leave out single vertices.
+        energy if math.isfinite(energy) else float(_vertex_energy(mesh).sum()),
+        float(sums.bends.sum()),
+        math.fsum(sums.shapes) / faces,
+        float(sums.worst.min()),
+    )
 
 
-class _QualityParts(NamedTuple):
-    """A mesh, and for each chunk of its faces the sums and the least of what they add."""
+class _Sums(NamedTuple):
+    """A mesh, its interior vertices, and for each chunk of its faces what they add up to.
+
+    The intersection angles of the edges of these vertices, at each of them, make ``pi * half_turns
+    + rest``. Edges belong to the face that has the lower twin.
+    """
 
     mesh: Mesh
+    interior: np.ndarray
+    half_turns: np.ndarray
+    rest: np.ndarray
     bends: np.ndarray
     shapes: np.ndarray
     worst: np.ndarray
 
 
-@jit
-def _add_quality(task, start, stop):
-    """Add up what the faces from `start` up to `stop` have."""
-    mesh, bends, shapes, worst = task.mesh, 0.0, 0.0, 1.0
-    for f in range(start, stop):
-        a, b, c = corners(mesh, f)
-        shape = triangle_shape(a, b, c)
-        shapes += shape
-        worst = min(worst, shape)
-        for h in range(3 * f, 3 * f + 3):
-            if h < mesh.twin[at(h)]:
-                bends += mean_curvature.bend(mesh, h)
+# Rows behind those of the diamond: the edge, how many of its ends are interior, the sum of the
+# lane's angles, its bend.
+_EDGE, _ENDS, _R, _S, _HALF_TURNS, _BEND, _ROWS = range(QUAD_ROWS, QUAD_ROWS + 7)
+# In the place of a fourth point for faces, whose corners are in the rows before.
+_SHAPE = 9
+
+
+@allocating_jit
+def _add_up(sums, start, stop):
+    """Write the sums of the faces from `start` up to `stop`."""
+    rows = np.zeros(_ROWS * LANES)
+    _add_shapes(sums, start, stop, rows)
+    _add_edges(sums, start, stop, rows)
+
+
+@inner
+def _add_shapes(sums, start, stop, rows):
+    mesh, total, worst = sums.mesh, 0.0, 1.0
+    for first in range(start, stop, LANES):
+        count = min(LANES, stop - first)
+        for lane in range(count):
+            for c in range(3):
+                v = mesh.origin[at(3 * (first + lane) + c)]
+                write_point(rows, 3 * c, at(lane), mesh.vertices, v)
+        for lane in range(LANES):
+            a, b, c = point_at(rows, 0, lane), point_at(rows, 3, lane), point_at(rows, 6, lane)
+            rows[_SHAPE * LANES + lane] = triangle_shape(a, b, c)
+        for lane in range(count):
+            shape = rows[_SHAPE * LANES + lane]
+            total += shape
+            worst = min(worst, shape)
     chunk = start // FACES_PER_SUM
-    task.bends[chunk], task.shapes[chunk], task.worst[chunk] = bends, shapes, worst
+    sums.shapes[chunk], sums.worst[chunk] = total, worst
+
+
+@inner
+def _add_edges(sums, start, stop, rows):
+    mesh, bends, count = sums.mesh, 0.0, 0
+    for lane in range(LANES):
+        rows[_R * LANES + lane] = 1.0
+    for h in range(3 * start, 3 * stop):
+        t = mesh.twin[at(h)]
+        if h > t:
+            continue
+        fill_quad(rows, count, mesh, h)
+        ends = 1.0 if sums.interior[at(mesh.origin[at(h)])] else 0.0
+        ends += 1.0 if sums.interior[at(mesh.origin[at(t)])] else 0.0
+        rows[_EDGE * LANES + count], rows[_ENDS * LANES + count] = h, ends
+        count += 1
+        if count == LANES:
+            bends += _add_lanes(mesh, rows, count)
+            count = 0
+    # What is left of the last lanes counts nowhere.
+    for lane in range(count, LANES):
+        rows[_ENDS * LANES + lane] = 0.0
+    bends += _add_lanes(mesh, rows, count)
+    half_turns, rest = 0.0, 0.0
+    for lane in range(LANES):
+        half_turns += rows[_HALF_TURNS * LANES + lane]
+        rest += math.atan2(rows[_S * LANES + lane], rows[_R * LANES + lane])
+    chunk = start // FACES_PER_SUM
+    sums.bends[chunk], sums.half_turns[chunk], sums.rest[chunk] = bends, half_turns, rest
+
+
+@inner
+def _add_lanes(mesh, rows, count):
+    """Add the angles of the lanes to their sums; return the bends of the first `count` together."""
+    for lane in range(LANES):
+        quad = quad_at(rows, lane)
+        beta = quad_angle(quad)
+        angles = AngleSum(
+            rows[_R * LANES + lane], rows[_S * LANES + lane], rows[_HALF_TURNS * LANES + lane]
+        )
+        ends = rows[_ENDS * LANES + lane]
+        angles = add(angles, _if(ends > 0.0, beta))
+        angles = add(angles, _if(ends > 1.0, beta))
+        rows[_R * LANES + lane], rows[_S * LANES + lane] = angles.r, angles.s
+        rows[_HALF_TURNS * LANES + lane] = angles.half_turns
+        rows[_BEND * LANES + lane] = mean_curvature.quick_bend(quad)
+    total = 0.0
+    for lane in range(count):
+        bend = rows[_BEND * LANES + lane]
+        if not math.isfinite(bend):
+            bend = mean_curvature.careful_bend(mesh, np.int64(rows[_EDGE * LANES + lane]))
+        total += bend
+    return total
+
+
+@inlined
+def _if(counts, beta):
+    """Return an angle, or none."""
+    return ComplexAngle(beta.r if counts else 1.0, beta.s if counts else 0.0)
 
 
 def _unit_mesh(vertices: ArrayLike, faces: ArrayLike) -> tuple[Mesh, int]:
@@ -298,44 +381,6 @@ def _unit_mesh(vertices: ArrayLike, faces: ArrayLike) -> tuple[Mesh, int]:
     points, triangles = check_mesh(vertices, faces)
     scaled, exponent = to_unit_scale(points, triangles)
     return build(scaled, triangles), exponent
-
-
-class _Parts(NamedTuple):
-    """A mesh, its interior vertices, and for each chunk of its half-edges a sum of angles.
-
-    The angles of the edges of these vertices, at each of them, make ``pi * half_turns + rest``.
-    """
-
-    mesh: Mesh
-    interior: np.ndarray
-    half_turns: np.ndarray
-    rest: np.ndarray
-
-
-@jit
-def _add_angles(task, start, stop):
-    """Sum the angles of the half-edges from `start` up to `stop`, the lower of twins."""
-    mesh, half_turns, rest = task.mesh, 0.0, 0.0
-    angles, products = NO_ANGLES, 0
-    for h in range(start, stop):
-        t = mesh.twin[at(h)]
-        if h > t:
-            continue
-        start_counts = task.interior[at(mesh.origin[at(h)])]
-        end_counts = task.interior[at(mesh.origin[at(t)])]
-        if not (start_counts or end_counts):
-            continue
-        beta = edge_complex_angle(mesh, h)
-        angles = add(angles, beta)
-        if start_counts and end_counts:
-            angles = add(angles, beta)
-        products += 1
-        if products == MOST_PRODUCTS:
-            half_turns += angles.half_turns
-            rest += math.atan2(angles.s, angles.r)
-            angles, products = NO_ANGLES, 0
-    task.half_turns[start // HALF_EDGES_PER_SUM] = half_turns + angles.half_turns
-    task.rest[start // HALF_EDGES_PER_SUM] = rest + math.atan2(angles.s, angles.r)
 
 
 class _Angles(NamedTuple):

@@ -14,8 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import guards, options
 from .execution import SEARCHES, STOPPED_REASON, run_all, run_keeping_cuts, work_of
-from .measure import quality_of, willmore_energy_of
-from .mesh.build import build, changed_edges, in_old_slots, local_order
+from .measure import quality_of
+from .mesh.build import build, changed_edges, in_old_slots, interior_vertices, local_order
 from .mesh.halfedge import Mesh
 from .mesh.validate import (
     check_edges,
@@ -299,7 +299,9 @@ def _flipped(
     order = local_order(faces, len(vertices))
     mesh = build(scaled, faces[order])
     mesh = _locked(mesh, locks, order)
-    before, quality = willmore_energy_of(mesh), quality_of(mesh)
+    # No flip changes which vertices are.
+    interior = interior_vertices(mesh)
+    before = quality_of(mesh, interior)
     left = NO_LIMIT if limit is None else min(limit, NO_LIMIT)
     run = run_keeping_cuts if keeps_cuts else run_all
     work = sum(map(work_of, plan))
@@ -308,27 +310,25 @@ def _flipped(
         done, deviation, _ = run(plan, mesh, exponent, left)
     report(0.0, "measuring")
     new_faces, corners = in_old_slots(mesh, order)
-    after, quality_after = willmore_energy_of(mesh), quality_of(mesh)
+    after = quality_of(mesh, interior)
     converged = all(one.converged for one in done)
     is_random = any(SEARCHES[one.search].is_random for one in done)
     result = FlipResult(
         faces=new_faces,
         flips=changed_edges(faces, new_faces) if is_random else sum(one.flips for one in done),
-        gain=done[0].gain if len(done) == 1 else before - after,
-        willmore_before=before,
-        willmore_after=after,
+        gain=done[0].gain if len(done) == 1 else before.willmore_energy - after.willmore_energy,
+        willmore_before=before.willmore_energy,
+        willmore_after=after.willmore_energy,
         converged=converged,
         reason=SEARCHES[done[-1].search].converged if converged else STOPPED_REASON,
         corners=corners,
         deviation=in_input_units(deviation, exponent),
-        absolute_mean_curvature_before=in_input_units(quality.absolute_mean_curvature, exponent),
-        absolute_mean_curvature_after=in_input_units(
-            quality_after.absolute_mean_curvature, exponent
-        ),
-        mean_shape_before=quality.mean_shape,
-        mean_shape_after=quality_after.mean_shape,
-        worst_shape_before=quality.worst_shape,
-        worst_shape_after=quality_after.worst_shape,
+        absolute_mean_curvature_before=in_input_units(before.absolute_mean_curvature, exponent),
+        absolute_mean_curvature_after=in_input_units(after.absolute_mean_curvature, exponent),
+        mean_shape_before=before.mean_shape,
+        mean_shape_after=after.mean_shape,
+        worst_shape_before=before.worst_shape,
+        worst_shape_after=after.worst_shape,
         passes=tuple(done),
         vertices=vertices,
         faces_before=faces,
@@ -337,8 +337,8 @@ def _flipped(
         "%d faces: %d flips, Willmore energy %g -> %g, %.3f s",
         len(faces),
         result.flips,
-        before,
-        after,
+        before.willmore_energy,
+        after.willmore_energy,
         time.perf_counter() - start,
     )
     return result

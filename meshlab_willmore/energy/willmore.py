@@ -71,9 +71,9 @@ def cost_reduction(mesh, h):
 
 
 @inlined
-def edge_complex_angle(mesh, h):
-    """Return the intersection angle at `h`, which has a twin, as a complex number."""
-    i, j, k, l = diamond(mesh, h)
+def quad_angle(quad):
+    """Return the intersection angle at the edge of a diamond, as a complex number."""
+    i, j, k, l = quad
     return complex_angle(subtract(i, k), subtract(j, k), subtract(i, l), subtract(j, l))
 
 

@@ -52,14 +52,13 @@ def fold_limits(foldangle, minshape=SLIVER):
     return FoldLimits(is_active, math.radians(foldangle), shape=minshape)
 
 
-@inner
+@inlined
 def triangle_shape(a, b, c):
     """Return 4 sqrt(3) area / (sum of squared sides): 1 if equilateral, 0 if degenerate."""
     ab, bc, ca = subtract(b, a), subtract(c, b), subtract(a, c)
     squares = dot(ab, ab) + dot(bc, bc) + dot(ca, ca)
-    if not squares > 0.0:
-        return 0.0
-    return SHAPE_OF_EQUILATERAL * norm(normal(a, b, c)) / squares
+    # Without a branch: loops over faces become vector instructions.
+    return SHAPE_OF_EQUILATERAL * norm(normal(a, b, c)) / (squares if squares > 0.0 else math.inf)
 
 
 @inner

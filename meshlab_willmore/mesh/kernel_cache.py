@@ -27,7 +27,13 @@ SOURCES = (
     "energy/*.py",
     "guards/*.py",
     "measure.py",
-    *(f"mesh/{name}.py" for name in ("build", "halfedge", "jit", "normals", "points", "rounding")),
+    "mesh/build.py",
+    "mesh/halfedge.py",
+    "mesh/jit.py",
+    "mesh/lanes.py",
+    "mesh/normals.py",
+    "mesh/points.py",
+    "mesh/rounding.py",
     "search/*.py",
 )
 # Settings of Numba that change the code, but for the processor's, by which Numba itself keys.

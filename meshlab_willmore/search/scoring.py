@@ -16,9 +16,10 @@ import numpy as np
 from ..energy import willmore
 from ..energy.angles import AngleSum, radians, rough
 from ..energy.wings import Wing, Wings
-from ..mesh.halfedge import NONE, Diamond, is_free
+from ..mesh import lanes
+from ..mesh.halfedge import NONE, is_free
 from ..mesh.jit import allocating_inner, at, generic, inlined, inner
-from ..mesh.points import Point
+from ..mesh.lanes import LANES, QUAD_ROWS, fill_quad, point_at, quad_at, write_point
 from .containers import NEVER
 from .costs import gain_of
 from .rounds import forbid
@@ -179,32 +180,11 @@ def _score_quickly(state, start, stop, energy, batch):
 
 # --- rows and lanes ------------------------------------------------------------------------------
 
-LANES = 64
-# Rows: x, y, z of i, j, k, l and of the four points outside, whether these exist, the drop.
-_OUTSIDE = 12
+# Rows behind those of the diamond: x, y, z of the points outside, whether these exist, the drop.
+_OUTSIDE = QUAD_ROWS
 _EXISTS = 24
 _DROP = 28
 _ROWS = 31
-# Unsigned, as an index must be to spare the question whether it counts from the end.
-_ONE, _TWO, _THREE = np.uint64(1), np.uint64(2), np.uint64(3)
-
-
-@inlined
-def _following(h):
-    return h - _TWO if h % _THREE == _TWO else h + _ONE
-
-
-@inlined
-def _previous(h):
-    return h - _ONE if h % _THREE != np.uint64(0) else h + _TWO
-
-
-@inlined
-def _write(rows, row, lane, vertices, v):
-    p = np.uint64(v)
-    rows[np.uint64(row * LANES) + lane] = vertices[p, np.uint64(0)]
-    rows[np.uint64((row + 1) * LANES) + lane] = vertices[p, _ONE]
-    rows[np.uint64((row + 2) * LANES) + lane] = vertices[p, _TWO]
 
 
 @inlined
@@ -212,8 +192,8 @@ def _write_outside(rows, place, lane, mesh, side):
     t = mesh.twin[side]
     exists = t != NONE
     rows[np.uint64((_EXISTS + place) * LANES) + lane] = 1.0 if exists else 0.0
-    corner = _previous(np.uint64(t)) if exists else side
-    _write(rows, _OUTSIDE + 3 * place, lane, mesh.vertices, mesh.origin[corner])
+    corner = lanes.previous(np.uint64(t)) if exists else side
+    write_point(rows, _OUTSIDE + 3 * place, lane, mesh.vertices, mesh.origin[corner])
 
 
 @allocating_inner
@@ -223,25 +203,14 @@ def empty_rows():
 
 
 @inlined
-def fill_quad(rows, place, mesh, half_edge):
-    """Write the diamond of `half_edge`, which has a twin, into lane `place`."""
-    lane, h = np.uint64(place), np.uint64(half_edge)
-    t = np.uint64(mesh.twin[h])
-    _write(rows, 0, lane, mesh.vertices, mesh.origin[h])
-    _write(rows, 3, lane, mesh.vertices, mesh.origin[t])
-    _write(rows, 6, lane, mesh.vertices, mesh.origin[_previous(h)])
-    _write(rows, 9, lane, mesh.vertices, mesh.origin[_previous(t)])
-
-
-@inlined
 def fill_wings(rows, place, mesh, half_edge):
-    """Write the wings of that diamond into lane `place`."""
+    """Write the wings of the diamond of `half_edge`, which has a twin, into lane `place`."""
     lane, h = np.uint64(place), np.uint64(half_edge)
     t = np.uint64(mesh.twin[h])
-    _write_outside(rows, 0, lane, mesh, _following(h))
-    _write_outside(rows, 1, lane, mesh, _previous(h))
-    _write_outside(rows, 2, lane, mesh, _following(t))
-    _write_outside(rows, 3, lane, mesh, _previous(t))
+    _write_outside(rows, 0, lane, mesh, lanes.following(h))
+    _write_outside(rows, 1, lane, mesh, lanes.previous(h))
+    _write_outside(rows, 2, lane, mesh, lanes.following(t))
+    _write_outside(rows, 3, lane, mesh, lanes.previous(t))
 
 
 @inlined
@@ -252,23 +221,9 @@ def fill(rows, place, mesh, half_edge):
 
 
 @inlined
-def _point(rows, row, lane):
-    return Point(
-        rows[row * LANES + lane], rows[(row + 1) * LANES + lane], rows[(row + 2) * LANES + lane]
-    )
-
-
-@inlined
-def _quad(rows, lane):
-    return Diamond(
-        _point(rows, 0, lane), _point(rows, 3, lane), _point(rows, 6, lane), _point(rows, 9, lane)
-    )
-
-
-@inlined
 def _wing(rows, place, lane):
     exists = rows[(_EXISTS + place) * LANES + lane] != 0.0
-    return Wing(_point(rows, _OUTSIDE + 3 * place, lane), exists)
+    return Wing(point_at(rows, _OUTSIDE + 3 * place, lane), exists)
 
 
 @inlined
@@ -302,7 +257,7 @@ def find_drops(rows, drop):
         Jitted function of a Diamond and its Wings, as `meshlab_willmore.energy.willmore.drop`.
     """
     for lane in range(LANES):
-        angles = drop(_quad(rows, lane), _wings(rows, lane))
+        angles = drop(quad_at(rows, lane), _wings(rows, lane))
         rows[_DROP * LANES + lane] = angles.r
         rows[(_DROP + 1) * LANES + lane] = angles.s
         rows[(_DROP + 2) * LANES + lane] = angles.half_turns
@@ -320,7 +275,7 @@ def find_reductions(rows, quick_reduction):
         Jitted function of a Diamond and its Wings.
     """
     for lane in range(LANES):
-        rows[_DROP * LANES + lane] = quick_reduction(_quad(rows, lane), _wings(rows, lane))
+        rows[_DROP * LANES + lane] = quick_reduction(quad_at(rows, lane), _wings(rows, lane))
 
 
 @inlined

@@ -12,8 +12,9 @@ from contextlib import contextmanager
 
 import numba
 
-# Items of one call of a kernel: far more work than the call itself, and far less than a second.
-CHUNK = 2048
+# Items of one call of a kernel: far more work than the call itself, and far less than a second. If
+# there are many, so many calls for each thread that all end at about the same time.
+CHUNK, MOST_CHUNK, CALLS_PER_THREAD = 2048, 32768, 16
 
 
 def thread_count():
@@ -39,17 +40,18 @@ def thread_pool(threads=None) -> Iterator[Callable]:
     Yields
     ------
     callable
-        ``parallel_for(kernel, task, count, chunk=CHUNK)`` calls ``kernel(task, start, stop)`` for
-        chunks of so many items that cover 0 .. count, and returns when all are done. The chunks run
-        at the same time, in any order, so a kernel must not write what it reads, or may read, in
-        another chunk.
+        ``parallel_for(kernel, task, count, chunk)`` calls ``kernel(task, start, stop)`` for chunks
+        of so many items that cover 0 .. count, and returns when all are done. Without `chunk` their
+        size depends on the number of threads. The chunks run at the same time, in any order, so a
+        kernel must not write what it reads, or may read, in another chunk.
     """
     threads = thread_count() if threads is None else threads
     # Threads start with the first work that they get.
     with ThreadPoolExecutor(max(threads - 1, 1)) as pool:
 
         def parallel_for(kernel, task, count, chunk=None):
-            chunk = CHUNK if chunk is None else chunk
+            if chunk is None:
+                chunk = min(max(CHUNK, count // (CALLS_PER_THREAD * threads)), MOST_CHUNK)
             # Taken one by one by each thread; an exception, such as an interrupt, leaves none.
             starts = iter(range(0, count, chunk))
 

@@ -37,13 +37,13 @@ import numpy as np
 
 from ..guards.bvh import expand, inactive_bvh, specialized
 from ..guards.intersections import ANY_ROUND, intersects_another_flip
-from ..mesh.halfedge import apex, flip, makes_new_edge
+from ..mesh.halfedge import Mesh, apex, flip, makes_new_edge, previous
 from ..mesh.jit import at, inner, jit
 from ..mesh.parallel import thread_pool
 from ..progress import report, stage
 from . import rounds, stencil
 from .containers import insert, reserve
-from .rounds import Candidates, forbid, in_chunks, initial_state
+from .rounds import Candidates, forbid, initial_state
 from .rules import (
     ALLOWED,
     CONVERGED,
@@ -67,6 +67,8 @@ NO_MAXIMUM = -1
 HALF_BITS, MOST_PLACES = 32, 2**32 - 1
 # Edges around one that changed, about.
 ACTIVE_PER_CHANGE = 13
+# Flips of which the gains are summed up together.
+FLIPS_PER_SUM = 2048
 # The part of the time of a pass until all edges are scored, and the power of the part of the edges
 # that are left which is nearest to the part of the time, measured on scans.
 SCORING, POWER = 0.25, 0.75
@@ -94,21 +96,31 @@ class Contest(NamedTuple):
     number: int
 
 
+class _NewEdges(NamedTuple):
+    """What says which edges maxima make: fields of Candidates, of the state and of its mesh."""
+
+    edges: np.ndarray
+    verdict: np.ndarray
+    origin: np.ndarray
+    twin: np.ndarray
+    new_edge: np.ndarray
+
+
 @jit
-def _contest_edges(contest):
-    """Mark, in place, the maxima that may become the same edge as another one."""
-    candidates, contested, number = contest
-    state, mesh = candidates.state, candidates.state.mesh
-    for place in range(len(candidates.edges)):
-        if candidates.verdict[place] != ALLOWED:
+def _contest_edges(made, number, contested):
+    """Mark, in place, the maxima of round `number` that may become the same edge as another one."""
+    for place in range(len(made.edges)):
+        if made.verdict[at(place)] != ALLOWED:
             continue
-        h = candidates.edges[place]
-        lower = at(min(apex(mesh, h), apex(mesh, mesh.twin[at(h)])))
-        before = state.new_edge[lower]
+        h = made.edges[at(place)]
+        k = made.origin[at(previous(h))]
+        l = made.origin[at(previous(made.twin[at(h)]))]
+        lower = at(min(k, l))
+        before = made.new_edge[lower]
         if before >> HALF_BITS == number:
-            contested[place] = contested[before & MOST_PLACES] = True
+            contested[at(place)] = contested[at(before & MOST_PLACES)] = True
         else:
-            state.new_edge[lower] = (np.int64(number) << HALF_BITS) | place
+            made.new_edge[lower] = (np.int64(number) << HALF_BITS) | place
 
 
 @jit
@@ -135,12 +147,15 @@ def _contest_faces(contest, start, stop):
 
 def _contested(candidates, number, all_are, parallel_for):
     """Return which maxima may be in each other's way, or all."""
+    state = candidates.state
     contest = Contest(candidates, np.full(len(candidates.edges), all_are), number)
-    if candidates.state.bvh.active:
+    if state.bvh.active:
         _announce(candidates, number)
     if not all_are:
-        _contest_edges(contest)
-        if candidates.state.bvh.active:
+        edges, verdict, mesh = candidates.edges, candidates.verdict, state.mesh
+        made = _NewEdges(edges, verdict, mesh.origin, mesh.twin, state.new_edge)
+        _contest_edges(made, number, contest.contested)
+        if state.bvh.active:
             parallel_for(_contest_faces, contest, len(contest.contested))
     return contest.contested
 
@@ -165,8 +180,9 @@ def in_order(candidates, number, flips, parallel_for):
     -------
     maxima : Candidates
         First those that must not be flipped, then the others.
-    first : int
-        The place from which on it has to be asked whether a flip is still allowed.
+    settled, contested : int
+        The places from which on nothing has to be asked any more, and from which on it has to be
+        asked whether a flip is still allowed.
     """
     state = candidates.state
     places = np.flatnonzero(candidates.verdict != NO_MAXIMUM)
@@ -174,13 +190,17 @@ def in_order(candidates, number, flips, parallel_for):
     is_allowed = maxima.verdict == ALLOWED
     are_many = flips + np.count_nonzero(is_allowed) > state.rules.maxflips
     contested = _contested(maxima, number, state.rules.is_wide or are_many, parallel_for)
-    late = np.flatnonzero(is_allowed & contested)
+    is_late = is_allowed & contested
+    late = np.flatnonzero(is_late)
     edges = maxima.edges[late]
     numbers = edges.astype(np.uint64) * rounds.SCRAMBLER & rounds.LOW_BITS
     late = late[np.lexsort((numbers, -state.rank[edges]))]
-    early = np.flatnonzero(~is_allowed), np.flatnonzero(is_allowed & ~contested)
-    order = np.concatenate([*early, late])
-    return Candidates(state, maxima.edges[order], maxima.verdict[order]), len(order) - len(late)
+    is_tie, is_early = state.is_tie[maxima.edges], is_allowed & ~contested
+    refused, ties = np.flatnonzero(~is_allowed), np.flatnonzero(is_early & is_tie)
+    settled = np.flatnonzero(is_early & ~is_tie)
+    order = np.concatenate([refused, ties, settled, late])
+    found = Candidates(state, maxima.edges[order], maxima.verdict[order])
+    return found, len(refused) + len(ties), len(order) - len(late)
 
 
 # --- flips ---------------------------------------------------------------------------------------
@@ -231,15 +251,15 @@ class RoundResult(NamedTuple):
 
 
 @jit
-def flip_maxima(maxima, start, stop, first, left, number, done):
+def flip_one_by_one(maxima, start, stop, contested, left, number, done):
     """Flip the maxima from `start` up to `stop` that are allowed.
 
     Parameters
     ----------
     maxima : Candidates
         From `in_order`; `tabu` and `blocking` of its state must have room for all of them.
-    start, stop, first : int
-        `first` as from there.
+    start, stop, contested : int
+        `contested` as from there.
     left : int
         How many flips may be made in this round.
     number : int
@@ -256,9 +276,7 @@ def flip_maxima(maxima, start, stop, first, left, number, done):
     flipped, refused, gain, outcome = done
     for place in range(start, stop):
         h, verdict = np.int64(maxima.edges[at(place)]), maxima.verdict[at(place)]
-        # Of most nothing is to be asked any more.
-        is_settled = verdict == ALLOWED and place < first and not state.is_tie[at(h)]
-        if not is_settled and _is_refused(state, h, verdict, place >= first, number):
+        if _is_refused(state, h, verdict, place >= contested, number):
             forbid(state, h)
             refused += 1
             state.done[at(len(state.done) - refused)] = h
@@ -276,20 +294,70 @@ def flip_maxima(maxima, start, stop, first, left, number, done):
     return flipped, refused, gain, outcome
 
 
-def _flip_all(maxima, first, left, number):
+class Settled(NamedTuple):
+    """Maxima of which nothing is to be asked, and what a flip of them needs.
+
+    Attributes
+    ----------
+    mesh : Mesh
+    gain, done : ndarray
+        As in the state.
+    edges : (s,) int32
+        The maxima.
+    flipped : int
+        How many were flipped before, in this round.
+    gains : (s / FLIPS_PER_SUM,) float64
+        The sums of the gains, to be written.
+    """
+
+    mesh: Mesh
+    gain: np.ndarray
+    done: np.ndarray
+    edges: np.ndarray
+    flipped: int
+    gains: np.ndarray
+
+
+@jit
+def flip_settled(settled, start, stop):
+    """Flip the maxima from `start` up to `stop`; threads may do that side by side.
+
+    A flip writes to its two faces, and to the sides next to them of the faces outside. No face of
+    one maximum is among the six of another one.
+    """
+    gain = 0.0
+    for place in range(start, stop):
+        h = np.int64(settled.edges[at(place)])
+        gain += settled.gain[at(h)]
+        flip(settled.mesh, h)
+        settled.done[at(settled.flipped + place)] = h
+    settled.gains[at(start // FLIPS_PER_SUM)] = gain
+
+
+def _flip_all(maxima, settled, contested, left, number, parallel_for):
     """Flip all maxima that are allowed; return the state, and what was done."""
-    state, done = maxima.state, RoundResult(0, 0, 0.0, WORKING)
-    for start in range(0, len(maxima.edges), rounds.EDGES_PER_CALL):
-        state = state._replace(
-            tabu=reserve(state.tabu, rounds.EDGES_PER_CALL),
-            blocking=reserve(state.blocking, rounds.EDGES_PER_CALL),
-        )
-        stop = min(start + rounds.EDGES_PER_CALL, len(maxima.edges))
-        maxima = maxima._replace(state=state)
-        done = RoundResult(*flip_maxima(maxima, start, stop, first, left, number, tuple(done)))
-        if done.state == STOPPED:
-            break
-    return state, done
+
+    def one_by_one(state, start, stop, done):
+        for first in range(start, stop, rounds.EDGES_PER_CALL):
+            state = state._replace(
+                tabu=reserve(state.tabu, rounds.EDGES_PER_CALL),
+                blocking=reserve(state.blocking, rounds.EDGES_PER_CALL),
+            )
+            last = min(first + rounds.EDGES_PER_CALL, stop)
+            task = maxima._replace(state=state)
+            done = flip_one_by_one(task, first, last, contested, left, number, done)
+            if done[-1] == STOPPED:
+                break
+        return state, RoundResult(*done)
+
+    state, done = one_by_one(maxima.state, 0, settled, (0, 0, 0.0, WORKING))
+    count = contested - settled
+    gains = np.zeros(-(-count // FLIPS_PER_SUM))
+    edges = maxima.edges[settled:contested]
+    task = Settled(state.mesh, state.gain, state.done, edges, done.flipped, gains)
+    parallel_for(flip_settled, task, count, FLIPS_PER_SUM)
+    done = done._replace(flipped=done.flipped + count, gain=done.gain + float(gains.sum()))
+    return one_by_one(state, contested, len(maxima.edges), tuple(done))
 
 
 # --- the search ----------------------------------------------------------------------------------
@@ -306,7 +374,7 @@ def _possible_maxima(state, dirty, refused, ranked):
         active = rounds.active_around(state, changed)
         if len(active):
             return active, ranked
-    ranked = in_chunks(rounds.compact_ranked, state, ranked, 0)
+    ranked = rounds.compact_ranked(state, ranked)
     return state.ranked[:ranked], ranked
 
 
@@ -333,7 +401,7 @@ def _make_rounds(score, state, progress, parallel_for):
     while True:
         number += 1
         parallel_for(score, state, dirty)
-        ranked = in_chunks(rounds.add_ranked, state, dirty, ranked)
+        ranked = rounds.add_ranked(state, dirty, ranked)
         edges, ranked = _possible_maxima(state, dirty, refused, ranked)
         if not len(edges):
             return progress._replace(state=CONVERGED)
@@ -341,9 +409,9 @@ def _make_rounds(score, state, progress, parallel_for):
             report(SCORING, f"{len(edges)} edges to flip")
         candidates = Candidates(state, edges, np.empty(len(edges), np.int8))
         parallel_for(find_maxima, candidates, len(edges))
-        maxima, first = in_order(candidates, number, progress.flips, parallel_for)
+        maxima, *places = in_order(candidates, number, progress.flips, parallel_for)
         left = state.rules.maxflips - progress.flips
-        state, done = _flip_all(maxima, first, left, number)
+        state, done = _flip_all(maxima, *places, left, number, parallel_for)
         flips, gain = progress.flips + done.flipped, progress.gain + done.gain
         progress = Progress(progress.scored, flips, gain, done.state)
         most = max(most, len(edges))

@@ -32,6 +32,7 @@ EDGES_PER_CALL = 16 * CHUNK
 # Half-edges of a block, of which all are looked through if one is dirty.
 BLOCK_BITS = 9
 BLOCK = 1 << BLOCK_BITS
+BLOCKS_PER_CALL = 64
 # Knuth's multiplier (2**32 / golden ratio); odd, so that no two numbers get the same.
 SCRAMBLER, LOW_BITS = np.uint64(2654435761), np.uint64(2**32 - 1)
 
@@ -235,24 +236,47 @@ def _mark_freed(state, start, stop, value):
     return value
 
 
+class _DirtyBlocks(NamedTuple):
+    """The dirty edges of a state, and for each chunk of blocks where its own begin in their list.
+
+    Only what is used: each array of a tuple takes time to compile.
+    """
+
+    is_dirty: np.ndarray
+    has_dirty: np.ndarray
+    dirty: np.ndarray
+    starts: np.ndarray
+
+
+@jit
+def _count_dirty(blocks, start, stop):
+    """Write, for the next chunk, how many edges are dirty in the blocks of this one."""
+    count = 0
+    for block in range(start, stop):
+        if blocks.has_dirty[at(block)]:
+            first = block << BLOCK_BITS
+            for h in range(first, min(first + BLOCK, len(blocks.is_dirty))):
+                count += blocks.is_dirty[at(h)]
+    blocks.starts[start // BLOCKS_PER_CALL + 1] = count
+
+
 @allocating_jit
-def _list_dirty(state):
-    """Put the dirty edges into their list, by number; return how many there are."""
-    size, found = 0, np.empty(BLOCK + 1, np.int32)
-    for block in range(len(state.has_dirty)):
-        if not state.has_dirty[at(block)]:
+def _list_dirty(blocks, start, stop):
+    """Put the dirty edges of the blocks from `start` up to `stop` into their list, by number."""
+    size, found = blocks.starts[start // BLOCKS_PER_CALL], np.empty(BLOCK + 1, np.int32)
+    for block in range(start, stop):
+        if not blocks.has_dirty[at(block)]:
             continue
-        state.has_dirty[at(block)] = False
+        blocks.has_dirty[at(block)] = False
         # Without a branch: no processor predicts whether an edge is dirty.
         count, first = 0, block << BLOCK_BITS
-        for h in range(first, min(first + BLOCK, len(state.is_dirty))):
+        for h in range(first, min(first + BLOCK, len(blocks.is_dirty))):
             found[at(count)] = h
-            count += state.is_dirty[at(h)]
-            state.is_dirty[at(h)] = False
+            count += blocks.is_dirty[at(h)]
+            blocks.is_dirty[at(h)] = False
         for place in range(count):
-            state.dirty[at(size + place)] = found[at(place)]
+            blocks.dirty[at(size + place)] = found[at(place)]
         size += count
-    return size
 
 
 def list_dirty(state, flipped, parallel_for):
@@ -260,14 +284,34 @@ def list_dirty(state, flipped, parallel_for):
     parallel_for(mark_changed, state, flipped)
     if state.bvh.active:
         in_chunks(_mark_freed, state, flipped, 0)
-    return _list_dirty(state)
+    count = len(state.has_dirty)
+    starts = np.zeros(-(-count // BLOCKS_PER_CALL) + 1, np.int64)
+    blocks = _DirtyBlocks(state.is_dirty, state.has_dirty, state.dirty, starts)
+    parallel_for(_count_dirty, blocks, count, BLOCKS_PER_CALL)
+    np.cumsum(starts, out=starts)
+    parallel_for(_list_dirty, blocks, count, BLOCKS_PER_CALL)
+    return int(starts[-1])
 
 
 # --- ranked and active edges ---------------------------------------------------------------------
 
 
+class _RankedEdges(NamedTuple):
+    """What the list of ranked edges is made of; the fields of a RoundState and its mesh."""
+
+    twin: np.ndarray
+    rank: np.ndarray
+    ranked: np.ndarray
+    is_listed: np.ndarray
+    dirty: np.ndarray
+
+
+def _ranked_edges(state):
+    return _RankedEdges(state.mesh.twin, state.rank, state.ranked, state.is_listed, state.dirty)
+
+
 @jit
-def compact_ranked(state, start, stop, count):
+def _compact_ranked(edges, start, stop, count):
     """Move the edges from `start` up to `stop` that still have a rank to the front of the list.
 
     Returns
@@ -276,18 +320,23 @@ def compact_ranked(state, start, stop, count):
         How many are there, with the `count` that were before.
     """
     for place in range(start, stop):
-        h = state.ranked[at(place)]
+        h = edges.ranked[at(place)]
         # A flip may have put another edge there, or none.
-        if state.rank[at(h)] > NEVER and h < state.mesh.twin[at(h)]:
-            state.ranked[at(count)] = h
+        if edges.rank[at(h)] > NEVER and h < edges.twin[at(h)]:
+            edges.ranked[at(count)] = h
             count += 1
         else:
-            state.is_listed[at(h)] = False
+            edges.is_listed[at(h)] = False
     return count
 
 
+def compact_ranked(state, ranked):
+    """Take out of the list of `ranked` edges, in place, those without a rank; return its length."""
+    return in_chunks(_compact_ranked, _ranked_edges(state), ranked, 0)
+
+
 @jit
-def add_ranked(state, start, stop, count):
+def _add_ranked(edges, start, stop, count):
     """Add the dirty edges from `start` up to `stop` that have a rank to `count` ranked ones.
 
     Returns
@@ -296,12 +345,17 @@ def add_ranked(state, start, stop, count):
         How many are in the list then.
     """
     for place in range(start, stop):
-        h = state.dirty[at(place)]
-        if state.rank[at(h)] > NEVER and not state.is_listed[at(h)]:
-            state.is_listed[at(h)] = True
-            state.ranked[at(count)] = h
+        h = edges.dirty[at(place)]
+        if edges.rank[at(h)] > NEVER and not edges.is_listed[at(h)]:
+            edges.is_listed[at(h)] = True
+            edges.ranked[at(count)] = h
             count += 1
     return count
+
+
+def add_ranked(state, dirty, ranked):
+    """Add those of the `dirty` edges that have a rank to the `ranked` ones; return their number."""
+    return in_chunks(_add_ranked, _ranked_edges(state), dirty, ranked)
 
 
 class Appender(NamedTuple):

@@ -140,7 +140,7 @@ def scored(mesh, rules, energy, bvh=None):
     """The state after the first score, its candidates, and their number."""
     state = initial_state(mesh, rules, inactive_bvh() if bvh is None else bvh)
     KERNELS[energy].score(state, 0, len(state.dirty))
-    return state, rounds.add_ranked(state, 0, len(state.dirty), 0)
+    return state, rounds.add_ranked(state, len(state.dirty), 0)
 
 
 @pytest.mark.parametrize("energy", SCORED_IN_BATCHES)
@@ -160,7 +160,7 @@ def test_many_edges_at_once_get_the_bits_that_each_gets_alone(energy, name):
 
 
 def maxima_of(state, edges, number=1):
-    """The verdict on each of the edges, and the peaks, in order, with the first contested place."""
+    """The verdict on each edge, the maxima in order, and the places where their parts begin."""
     edges = np.array(edges, np.int32)
     candidates = Candidates(state, edges, np.empty(len(edges), np.int8))
     parallel_greedy.find_maxima(candidates, 0, len(edges))
@@ -168,10 +168,15 @@ def maxima_of(state, edges, number=1):
         return candidates.verdict, *parallel_greedy.in_order(candidates, number, 0, parallel_for)
 
 
+def flip_in_order(maxima, places):
+    with parallel.thread_pool(1) as parallel_for:
+        return parallel_greedy._flip_all(maxima, *places, 10**6, 1, parallel_for)
+
+
 def flip_all(state, edges):
-    """Flip the peaks among the edges in one round; return the state, those, and what was done."""
-    _, chosen, first = maxima_of(state, edges)
-    state, done = parallel_greedy._flip_all(chosen, first, 10**6, 1)
+    """Flip the maxima among the edges in one round; return the state, those, and what was done."""
+    _, chosen, *places = maxima_of(state, edges)
+    state, done = flip_in_order(chosen, places)
     return state, list(state.done[: done.flipped]), done
 
 
@@ -182,7 +187,7 @@ def test_the_order_of_the_flips_of_a_round_does_not_matter(energy, seed):
     mesh = build(*meshes.bumpy_sphere(120, seed, bump=0.7))
     state, count = scored(mesh, rules_for(energy, FREE), energy)
     candidates = state.ranked[:count].copy()
-    verdict, _, _ = maxima_of(state, candidates, 7)
+    verdict, *_ = maxima_of(state, candidates, 7)
     state, chosen, done = flip_all(state, candidates)
     assert len(chosen) > 1
     assert set(chosen) <= set(candidates[verdict == ALLOWED])
@@ -218,7 +223,7 @@ def test_of_two_flips_to_the_same_edge_the_smaller_waits_until_it_is_gone(larger
     two = ring[0], ring[4]
     one, other = two[larger], two[1 - larger]
     state = with_ranks(mesh, {one: 2.0, other: 1.0})
-    verdict, _, _ = maxima_of(state, two, 7)
+    verdict, *_ = maxima_of(state, two, 7)
     assert list(verdict) == [ALLOWED, ALLOWED]
     state, flipped, done = flip_all(state, two)
     assert flipped == [one]
@@ -228,7 +233,7 @@ def test_of_two_flips_to_the_same_edge_the_smaller_waits_until_it_is_gone(larger
     assert ends(mesh, one) == {8, 9}
     # In a later round the edge is there already.
     state.rank[other] = state.rank[mesh.twin[other]] = 1.0
-    verdict, _, _ = maxima_of(state, [other], 2)
+    verdict, *_ = maxima_of(state, [other], 2)
     assert list(verdict) == [EXISTS]
     # Once it is flipped away, the edge that waits is looked at again.
     for _ in range(3):
@@ -243,7 +248,7 @@ def test_edges_of_equal_gain_do_not_wait_for_the_first_of_all():
     mesh = build(*meshes.grid(12, 12))
     edges = [h for h in edges_of(mesh) if is_free(mesh, h)]
     state = with_ranks(mesh, dict.fromkeys(edges, 1.0))
-    verdict, _, _ = maxima_of(state, edges)
+    verdict, *_ = maxima_of(state, edges)
     chosen = {h for h, what in zip(edges, verdict, strict=True) if what != NO_MAXIMUM}
     assert len(chosen) > len(edges) / 26
     for h in chosen:
@@ -340,7 +345,7 @@ def test_two_flips_of_a_round_do_not_cut_each_other(gap):
     two = edges_of(mesh)
     assert [ends(mesh, h) for h in two] == [{0, 1}, {4, 5}]
     state = with_ranks(mesh, {two[0]: 1.0, two[1]: 2.0}, bvh)
-    verdict, _, _ = maxima_of(state, two, 7)
+    verdict, *_ = maxima_of(state, two, 7)
     assert list(verdict) == [ALLOWED, ALLOWED]
     state, flipped, done = flip_all(state, two)
     if gap > 2.0:
@@ -354,6 +359,20 @@ def test_two_flips_of_a_round_do_not_cut_each_other(gap):
             size = rounds.list_dirty(state, 1, parallel_for)
         assert two[0] in state.dirty[:size]
     assert not self_intersections(mesh.vertices, faces_of(mesh)).any()
+
+
+@HEAVY
+def test_many_flips_of_a_round_are_shared_among_threads():
+    results = []
+    for threads in (1, 3):
+        mesh = build(*meshes.torus(30_000, 0.3, 8))
+        rules = rules_for("virtual willmore")
+        settings = Settings(threads=threads)
+        progress = parallel_greedy.run(KERNELS["virtual willmore"], mesh, rules, None, settings)
+        results.append((progress, mesh.origin.tobytes(), mesh.twin.tobytes()))
+    assert results[0][0].flips > 4 * parallel_greedy.FLIPS_PER_SUM
+    assert results[0] == results[1]
+    validate_connectivity(mesh)
 
 
 @HEAVY
@@ -411,14 +430,14 @@ def test_what_a_cut_forbade_before_a_round_is_not_flipped_in_it():
 def test_what_must_not_be_flipped_waits_before_the_first_flip_of_a_round():
     mesh = build(*meshes.crumpled(11, noise=1.5))
     state, count = scored(mesh, rules_for("willmore", FREE), "willmore", build_bvh(mesh))
-    verdict, chosen, first = maxima_of(state, state.ranked[:count])
+    verdict, chosen, *places = maxima_of(state, state.ranked[:count])
     is_allowed = chosen.verdict == ALLOWED
     assert INTERSECTS in verdict
-    assert 0 < np.count_nonzero(~is_allowed) <= first
+    assert 0 < np.count_nonzero(~is_allowed) <= places[0] <= places[1]
     assert (np.sort(~is_allowed)[::-1] == ~is_allowed).all()
     blocked = chosen.edges[chosen.verdict == INTERSECTS]
     before = [ends(mesh, h) for h in blocked]
-    state, done = parallel_greedy._flip_all(chosen, first, 10**6, 1)
+    state, done = flip_in_order(chosen, places)
     assert done.flipped > 0
     assert [ends(mesh, h) for h in blocked] == before
     assert (state.watch_lists.face[blocked] >= 0).all()

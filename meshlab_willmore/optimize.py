@@ -12,7 +12,7 @@ from typing import NamedTuple, ParamSpec, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import guards, options
+from . import ahead, guards, options
 from .execution import SEARCHES, STOPPED_REASON, run_all, run_keeping_cuts, work_of
 from .measure import quality_of
 from .mesh.build import build, changed_edges, in_old_slots, interior_vertices, local_order
@@ -294,6 +294,8 @@ def _flipped(
 ) -> FlipResult:
     """Return the result for checked arguments."""
     start = time.perf_counter()
+    if all(one.search == options.SEARCH.default and not one.checkintersections for one in plan):
+        ahead.start()
     report(0.0, "building the half-edges")
     scaled, exponent = to_unit_scale(vertices, faces)
     order = local_order(faces, len(vertices))

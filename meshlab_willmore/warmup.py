@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from . import measure
+from . import ahead, measure
 from .guards import fold_limits
 from .guards.bvh import inactive_bvh
 from .mesh import compiling
@@ -177,7 +177,7 @@ _Outcome = tuple[str, list[compiling.Compiled]]
 def _run(chosen: list[WarmupStep]) -> list[_Outcome]:
     """Run steps in this process; return their names and what each has compiled."""
     outcomes = []
-    with compiling.announced("", silent=True):
+    with compiling.announced("", silent=True), ahead.prevented():
         for step in chosen:
             with compiling.counted() as compiled:
                 step.run()
@@ -230,7 +230,7 @@ def missing() -> list[str]:
 
 def _would_compile(step: WarmupStep) -> bool:
     try:
-        with compiling.forbidden():
+        with compiling.forbidden(), ahead.prevented():
             step.run()
     except compiling.NotCompiledError:
         return True

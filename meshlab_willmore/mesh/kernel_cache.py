@@ -13,6 +13,7 @@ import os
 import pickle
 import tempfile
 import zlib
+from collections.abc import Callable
 from pathlib import Path
 
 import llvmlite
@@ -200,6 +201,21 @@ class KernelCache(FunctionCache):
         super().__init__(function)
         name, stamp = self._impl.filename_base + _MARK, self._impl.locator.get_source_stamp()
         self._cache_file = _Files(self._cache_path, name, stamp)
+        # Waits until another process has compiled it, if one does.
+        self.wait: Callable[[], object] | None = None
+
+    def load_overload(self, sig, target_context):
+        """Return what was compiled, or None; wait for it if another process is about to."""
+        found = super().load_overload(sig, target_context)
+        if found is None and self.wait:
+            self.wait()
+            self.wait = None
+            found = super().load_overload(sig, target_context)
+        return found
+
+    def is_empty(self):
+        """Whether nothing is kept of this kernel."""
+        return not self._cache_file._load_index()
 
     def save_overload(self, sig, data):
         """Keep what was compiled, if the disk has room for it and it may be written."""

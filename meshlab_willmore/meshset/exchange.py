@@ -12,8 +12,9 @@ kind has come through before.
 from __future__ import annotations
 
 import os
+from contextlib import nullcontext
 from pathlib import Path, PurePosixPath
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pymeshlab
@@ -34,10 +35,7 @@ from .snapshot import (
 _PLACEHOLDER = "texture.png"
 _PART_FILE = "part.ply"
 _PART_SIZE = 100
-_NORMAL = ("nx", "ny", "nz")
-
-_ROWS = 4096
-_PLAIN_FACE = np.dtype([("vertex_indices_count", "u1"), ("vertex_indices", "<i4", (3,))])
+NORMAL = ("nx", "ny", "nz")
 
 # MeshLab writes radii as double, but reads them into the place of a float.
 _READABLE = {"radius": np.dtype("<f4")}
@@ -56,7 +54,9 @@ _Kind = tuple[tuple, tuple, bool]
 _came_through: set[_Kind] = set()
 
 
-def give(ms: pymeshlab.MeshSet, old: MeshSnapshot, new: MeshSnapshot) -> None:
+def give(
+    ms: pymeshlab.MeshSet, old: MeshSnapshot, new: MeshSnapshot, folder: Path | None = None
+) -> None:
     """Replace the current mesh of `ms` by the mesh `new`.
 
     Parameters
@@ -66,6 +66,8 @@ def give(ms: pymeshlab.MeshSet, old: MeshSnapshot, new: MeshSnapshot) -> None:
         an error is raised.
     old, new : MeshSnapshot
         The mesh before and after changes, see `with_faces`.
+    folder : Path, optional
+        Where `MESH_FILE` holds `new` already; without it, the mesh is written.
 
     Raises
     ------
@@ -74,10 +76,10 @@ def give(ms: pymeshlab.MeshSet, old: MeshSnapshot, new: MeshSnapshot) -> None:
     RoomError
         If the folder for temporary files has no room for the mesh and its textures.
     """
-    with temporary_folder(_size(new)) as folder:
-        path = _mesh_path(folder, new.ply.textures)
+    with temporary_folder(_size(new)) if folder is None else nullcontext(folder) as place:
+        path = _mesh_path(place, new.ply.textures)
         _write_images(path.parent, new)
-        written = _write(path, new)
+        written = _write(path, new) if folder is None else new.ply
         with native.kept_working_folder():
             _leave_the_users_files(path.parent, new.ply.textures)
             _try_a_part(path.with_name(_PART_FILE), new, written)
@@ -99,34 +101,7 @@ def _size(snapshot: MeshSnapshot) -> int:
     return records + sum(_BYTES_OF_PIXEL * i.width() * i.height() for i in images)
 
 
-class Flipped(NamedTuple):
-    """What is new of a mesh after flips, if its faces had no flags and other data.
-
-    Attributes
-    ----------
-    faces : (m,) structured ndarray
-        The records of the faces.
-    normals : (n, 3) float64 ndarray
-        The normals of the vertices.
-    """
-
-    faces: np.ndarray
-    normals: np.ndarray
-
-
-def flipped(vertices: np.ndarray, faces: np.ndarray, others: np.ndarray) -> Flipped:
-    """What is new after flips; `others` are the normals of the vertices without faces."""
-    # Numba takes too long to import for programs that don't flip.
-    from ..mesh.normals import vertex_normals
-
-    records = np.empty(len(faces), _PLAIN_FACE)
-    records["vertex_indices_count"], records["vertex_indices"] = 3, faces
-    return Flipped(records, vertex_normals(vertices, faces, others))
-
-
-def with_faces(
-    old: MeshSnapshot, faces: np.ndarray, corners: np.ndarray, new: Flipped | None = None
-) -> MeshSnapshot:
+def with_faces(old: MeshSnapshot, faces: np.ndarray, corners: np.ndarray) -> MeshSnapshot:
     """The mesh with other faces.
 
     Parameters
@@ -136,28 +111,17 @@ def with_faces(
         The new faces, slot by slot.
     corners : (m, 3) int32 ndarray
         For each new corner the old corner (3 * face + place) whose wedge data it gets.
-    new : Flipped, optional
-        What `flipped` returns; also if the faces turn out to have more.
     """
-    if new is None:
-        new = flipped(old.vertices, faces, old.normals)
-    records = new.faces if _is_plain(old.ply.faces) else _new_records(old.ply, faces, corners)
-    return old._replace(faces=faces, ply=old.ply._replace(faces=records), normals=new.normals)
+    # Numba takes too long to import for programs that don't flip.
+    from ..mesh.normals import vertex_normals
 
-
-def _is_plain(faces: np.ndarray) -> bool:
-    """Whether faces have no flags that are set, and no other data."""
-    names = faces.dtype.names
-    return names == (*(_PLAIN_FACE.names or ()), "flags") and not faces["flags"].any()
-
-
-def _new_records(old: ply.PlyMesh, faces: np.ndarray, corners: np.ndarray) -> np.ndarray:
-    """The records of the faces with other corners."""
-    changed = {"vertex_indices": faces, "flags": carry_side_bits(old, faces)}
-    if "texcoord" in (old.faces.dtype.names or ()):
-        wedges = old.faces["texcoord"].reshape(-1, 2)
+    changed = {"vertex_indices": faces, "flags": carry_side_bits(old.ply, faces)}
+    if "texcoord" in (old.ply.faces.dtype.names or ()):
+        wedges = old.ply.faces["texcoord"].reshape(-1, 2)
         changed["texcoord"] = wedges[corners.ravel()].reshape(-1, 6)
-    return _with_columns(old.faces, changed)
+    records = _with_columns(old.ply.faces, changed)
+    normals = vertex_normals(old.vertices, faces, old.normals)
+    return old._replace(faces=faces, ply=old.ply._replace(faces=records), normals=normals)
 
 
 def _try_a_part(path: Path, whole: MeshSnapshot, written: ply.PlyMesh) -> None:
@@ -218,7 +182,7 @@ def _write(path: Path, snapshot: MeshSnapshot) -> ply.PlyMesh:
         What was written.
     """
     mesh = snapshot.ply
-    normals = dict(zip(_NORMAL, snapshot.normals.T, strict=True))
+    normals = dict(zip(NORMAL, snapshot.normals.T, strict=True))
     carried = mesh._replace(
         vertices=_with_columns(mesh.vertices, normals),
         faces=_with_columns(mesh.faces, {}),
@@ -243,13 +207,7 @@ def _with_columns(records: np.ndarray, columns: dict[str, np.ndarray]) -> np.nda
         fields.append((name, _READABLE.get(name, kind)))
     if not columns and np.dtype(fields) == records.dtype:
         return records
-    new = np.empty(len(records), fields)
-    # A block of rows stays in the processor's cache for all columns.
-    for start in range(0, len(records), _ROWS):
-        rows = slice(start, start + _ROWS)
-        for name, values in sources.items():
-            new[name][rows] = values[rows]
-    return new
+    return ply.records(sources, fields)
 
 
 def _write_images(folder: Path, snapshot: MeshSnapshot) -> None:

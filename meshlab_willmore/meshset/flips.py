@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Mapping
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from typing import Any
 
@@ -26,17 +25,10 @@ from ..options import (
 )
 from ..presets import FULL_DIAGONAL, PRESETS, conflict, decided_by
 from ..results import FlipResult
-from . import edge_flags, exchange, ids, interrupts, native
+from . import edge_flags, exchange, ids, interrupts, late, native
 from .filter import Filter, current_surface
 from .parameters import Parameter
-from .snapshot import (
-    MeshSnapshot,
-    Surface,
-    can_be_saved_late,
-    shown_losses,
-    surface_of,
-    take,
-)
+from .snapshot import MeshSnapshot, Surface, shown_losses, take
 
 # --- parameters --------------------------------------------------------------------------------
 
@@ -116,7 +108,7 @@ def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any]
     start = time.perf_counter()
     # A variable with the mesh would keep it, also in an exception that a caller keeps.
     current_surface(ms)
-    if can_be_saved_late(ms):
+    if late.can_be_saved_late(ms):
         result = _flip_and_save(ms, values)
     else:
         snapshot = take(ms)
@@ -144,36 +136,27 @@ def _flip(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> tuple[dict[str, Any]
 
 
 def _flip_and_save(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> FlipResult:
-    """Flip edges of a mesh that can be saved late, and save it only if there are flips."""
-    surface = surface_of(ms.current_mesh(), values["selection"])
+    """Flip edges of a mesh that can be saved late."""
+    surface = late.surface_of(ms.current_mesh(), values["selection"])
     _refuse(shown_losses(ms.current_mesh()), values)
     result = _flipped(surface, _NO_EDGES, values)
     if not result.flips:
         return result
-    old_normals = ms.current_mesh().vertex_normal_matrix()
-    with ThreadPoolExecutor(1) as pool:
-        # PyMeshLab saves on one core.
-        new = pool.submit(exchange.flipped, surface.vertices, result.faces, old_normals)
-        snapshot = take(ms, late=surface)
-    _refuse(snapshot.unsupported, values)
-    fixed = edge_flags.fixed_edges(snapshot)
-    if not len(fixed):
-        _give(ms, snapshot, result, new.result())
-        return result
-    result = _flipped(snapshot, fixed, values)
-    _give(ms, snapshot, result)
+    with late.saved(ms, surface, result.faces) as saved:
+        _refuse(saved.old.unsupported, values)
+        fixed = edge_flags.fixed_edges(saved.old)
+        if len(fixed):
+            result = _flipped(saved.old, fixed, values)
+        if saved.new is None:
+            _give(ms, saved.old, result)
+        else:
+            exchange.give(ms, saved.old, saved.new, saved.folder)
     return result
 
 
-def _give(
-    ms: pymeshlab.MeshSet,
-    snapshot: MeshSnapshot,
-    result: FlipResult,
-    new: exchange.Flipped | None = None,
-) -> None:
+def _give(ms: pymeshlab.MeshSet, snapshot: MeshSnapshot, result: FlipResult) -> None:
     if result.flips:
-        changed = exchange.with_faces(snapshot, result.faces, result.corners, new)
-        exchange.give(ms, snapshot, changed)
+        exchange.give(ms, snapshot, exchange.with_faces(snapshot, result.faces, result.corners))
 
 
 def _refuse(unsupported: list[str], values: dict[str, Any]) -> None:

@@ -26,6 +26,7 @@ SCALARS = {
 _LIST_LENGTHS = {"vertex_indices": 3, "texcoord": 6}
 _COUNT_SUFFIX = "_count"
 _TEXTURE_COMMENT = "comment TextureFile "
+_ROWS = 4096
 _END = b"end_header\n"
 
 
@@ -111,6 +112,18 @@ def _block(file: BinaryIO, element: _Element) -> np.ndarray:
                 f"{Path(file.name).name}: a list {name} does not have {length} entries"
             )
     return records
+
+
+def records(columns: dict[str, np.ndarray], fields: list[tuple] | np.dtype) -> np.ndarray:
+    """Records with the fields of a dtype, from a column for each."""
+    count = len(next(iter(columns.values())))
+    new = np.empty(count, fields)
+    # A block of rows stays in the processor's cache for all columns.
+    for start in range(0, count, _ROWS):
+        rows = slice(start, start + _ROWS)
+        for name, values in columns.items():
+            new[name][rows] = values[rows]
+    return new
 
 
 def _type_name(dtype: np.dtype) -> str:

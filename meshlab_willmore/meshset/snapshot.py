@@ -5,9 +5,7 @@ texture indices or radii, nor whether there are any (`polygonal_face_list` takes
 as the file). Custom attributes are read by the methods of `Mesh`, under their real names.
 
 PyMeshLab notes the name of the file with a mesh that it saves, and nothing puts the old name back.
-So a copy is saved, which takes longer than the file; but of a large mesh of little else than
-positions and faces the mesh itself, once there are flips: its name is that of another temporary
-file soon after in any case. What flips depend on is read by the methods of `Mesh` before.
+So a copy is saved, but of the meshes in `late`.
 """
 
 from __future__ import annotations
@@ -29,9 +27,6 @@ MESH_FILE = "mesh.ply"
 
 # The bit of a selected element, the same in the flags of vertices and faces.
 _SELECTED = 0x20
-
-# To copy a smaller mesh takes no time that counts.
-LEAST_TO_SAVE_LATE = 10_000
 
 _BYTES_OF_VERTEX = 28
 _BYTES_OF_FACE = 17
@@ -55,7 +50,7 @@ ATTRIBUTE_METHODS = {
 
 
 class Surface(NamedTuple):
-    """What flips depend on, of a mesh without textures and polygons.
+    """What flips depend on, of a mesh of triangles without texture coordinates.
 
     The attributes are those of a `MeshSnapshot`.
     """
@@ -123,26 +118,6 @@ class MeshSnapshot(NamedTuple):
         return selected(self.ply.faces)
 
 
-def can_be_saved_late(ms: pymeshlab.MeshSet) -> bool:
-    """Whether the current mesh is large, and has no data that a `Surface` needs but polygons."""
-    mesh = ms.current_mesh()
-    has_mapping = mesh.has_wedge_tex_coord() or mesh.has_vertex_tex_coord()
-    return (
-        mesh.face_number() >= LEAST_TO_SAVE_LATE
-        and not (has_mapping or mesh.texture_number())
-        and not _attribute_keys(ms)
-    )
-
-
-def surface_of(mesh: pymeshlab.Mesh, selection: bool) -> Surface:
-    """Read what flips depend on, with or without the selection; nothing of `mesh` changes."""
-    return Surface(
-        np.ascontiguousarray(mesh.vertex_matrix()),
-        np.ascontiguousarray(mesh.face_matrix(), np.int32),
-        mesh.face_selection_array() if selection else None,
-    )
-
-
 def take(ms: pymeshlab.MeshSet, late: Surface | None = None) -> MeshSnapshot:
     """Read the current mesh of `ms`, which must have faces and be compact.
 
@@ -153,17 +128,17 @@ def take(ms: pymeshlab.MeshSet, late: Surface | None = None) -> MeshSnapshot:
     ms : pymeshlab.MeshSet
         Without `late` nothing of it changes.
     late : Surface, optional
-        What was read of the mesh before, if that is to be saved itself: PyMeshLab notes the name of
-        the file with it. See `can_be_saved_late`.
+        What was read of the mesh before, if no copy of it is to be saved: PyMeshLab notes the name
+        of the file with it.
     """
     native.forget_failures()
     mesh = ms.current_mesh()
-    attribute_keys = _attribute_keys(ms)
+    keys = attribute_keys(ms)
     with _copied(mesh) if late is None else _itself(ms) as (source, folder):
         path = folder / MESH_FILE
         native.save(source, path, save_textures=False, **_save_flags(mesh))
         records = ply.read(path)
-        attributes = _take_attributes(mesh, _attribute_names(source, folder, attribute_keys))
+        attributes = _take_attributes(mesh, _attribute_names(source, folder, keys))
         textures = records.textures or _unmapped_textures(source, folder)
     edges = mesh.edge_matrix().astype(np.int32)
     records = records._replace(edges=edges, textures=textures)
@@ -173,7 +148,7 @@ def take(ms: pymeshlab.MeshSet, late: Surface | None = None) -> MeshSnapshot:
         *_lost_digits(records),
         *_lost_names(records.textures, images),
     ]
-    if len(attributes) < len(attribute_keys):
+    if len(attributes) < len(keys):
         unsupported.append("custom attributes with odd names")
     return MeshSnapshot(
         np.column_stack([records.vertices[axis] for axis in "xyz"])
@@ -190,7 +165,8 @@ def take(ms: pymeshlab.MeshSet, late: Surface | None = None) -> MeshSnapshot:
     )
 
 
-def _attribute_keys(ms: pymeshlab.MeshSet) -> list[str]:
+def attribute_keys(ms: pymeshlab.MeshSet) -> list[str]:
+    """PyMeshLab's keywords for saving the custom attributes of the current mesh."""
     return [key for key in native.defaults(ms, "ply") if key.startswith("__ca_")]
 
 

@@ -8,7 +8,7 @@ import pymeshlab
 import pytest
 
 import meshlab_willmore
-from meshlab_willmore.meshset import snapshot
+from meshlab_willmore.meshset import late
 from tests import meshes
 
 SAMPLES = Path(pymeshlab.__file__).parent / "tests" / "sample_meshes"
@@ -27,7 +27,7 @@ def registered():
 def saved(request, monkeypatch):
     """When a mesh that may be saved late is saved: before its flips by a copy, or after them."""
     least = {"early": 10**9, "late": 0}[request.param]
-    monkeypatch.setattr(snapshot, "LEAST_TO_SAVE_LATE", least)
+    monkeypatch.setattr(late, "LEAST_FACES", least)
     return request.param
 
 

@@ -23,7 +23,7 @@ from tests.meshset.contents import (
 def anew(monkeypatch):
     """Each mesh is the first of its kind in the process, and fills several blocks of rows."""
     monkeypatch.setattr(exchange, "_came_through", set())
-    monkeypatch.setattr(exchange, "_ROWS", 64)
+    monkeypatch.setattr(ply, "_ROWS", 64)
 
 
 def attributes_of(ms):

@@ -4,7 +4,7 @@ import numpy as np
 import pymeshlab
 import pytest
 
-from meshlab_willmore.meshset import native, snapshot
+from meshlab_willmore.meshset import late, native
 from tests import meshes
 from tests.meshset.conftest import FLIP, SAMPLES, script_of
 from tests.meshset.contents import plain_set, state
@@ -86,7 +86,7 @@ def test_flips_are_the_same_whenever_the_mesh_is_saved(monkeypatch):
     """Also the bits of faces, of a mesh of quads and triangles: it is read again when they show."""
     results = []
     for least in (10**9, 0):
-        monkeypatch.setattr(snapshot, "LEAST_TO_SAVE_LATE", least)
+        monkeypatch.setattr(late, "LEAST_FACES", least)
         ms = pymeshlab.MeshSet()
         ms.load_new_mesh(str(SAMPLES / "cow.obj"))
         ms.compute_selection_by_condition_per_face(condselect="fi < 2500")
@@ -102,7 +102,7 @@ def test_flips_are_the_same_whenever_the_mesh_is_saved(monkeypatch):
 def test_a_verbose_set_prints_the_same(capfd, tmp_path, monkeypatch):
     printed = []
     for least in (10**9, 0):
-        monkeypatch.setattr(snapshot, "LEAST_TO_SAVE_LATE", least)
+        monkeypatch.setattr(late, "LEAST_FACES", least)
         ms = pymeshlab.MeshSet(verbose=True)
         ms.add_mesh(pymeshlab.Mesh(*meshes.bumpy_sphere(300)))
         capfd.readouterr()

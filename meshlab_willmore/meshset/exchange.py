@@ -85,7 +85,7 @@ def give(
             _try_a_part(path.with_name(_PART_FILE), new, written)
             layers.replace_current(
                 ms,
-                lambda target: _load_whole(target, path, new),
+                lambda target: _load_whole(target, path, new, has_flags=_has_flags(written)),
                 lambda target: _reload(target, path, old),
                 old.identity,
                 by_copies=new.is_without_pixels,
@@ -255,10 +255,15 @@ def _save_image(image: pymeshlab.Image, path: Path) -> None:
     lossless.replace(path)
 
 
-def _load_whole(ms: pymeshlab.MeshSet, path: Path, snapshot: MeshSnapshot) -> None:
-    """Load a mesh as `_load` does, and raise if something of it was lost."""
+def _load_whole(
+    ms: pymeshlab.MeshSet, path: Path, snapshot: MeshSnapshot, has_flags: bool = True
+) -> None:
+    """Load a mesh as `_load` does, and raise if something of it was lost.
+
+    A file without flags brings no selection, as a part of the first mesh of its kind has shown.
+    """
     _load(ms, path, snapshot)
-    lost = _lost(ms, snapshot)
+    lost = _lost(ms, snapshot, has_flags)
     if lost:
         raise pymeshlab.PyMeshLabException(
             f"PyMeshLab does not carry all of this mesh: {', '.join(lost)} would change. "
@@ -321,7 +326,11 @@ def _reload(ms: pymeshlab.MeshSet, path: Path, snapshot: MeshSnapshot) -> None:
     _load(ms, path, snapshot)
 
 
-def _lost(ms: pymeshlab.MeshSet, snapshot: MeshSnapshot) -> list[str]:
+def _has_flags(mesh: ply.PlyMesh) -> bool:
+    return any("flags" in (of.dtype.names or ()) for of in (mesh.vertices, mesh.faces))
+
+
+def _lost(ms: pymeshlab.MeshSet, snapshot: MeshSnapshot, has_flags: bool) -> list[str]:
     """In what the current mesh, as PyMeshLab read it, differs from the snapshot."""
     mesh, vertices, faces = ms.current_mesh(), snapshot.ply.vertices, snapshot.ply.faces
     names, face_names = vertices.dtype.names or (), faces.dtype.names or ()
@@ -330,10 +339,12 @@ def _lost(ms: pymeshlab.MeshSet, snapshot: MeshSnapshot) -> list[str]:
         "vertex positions": lambda: _same(mesh.vertex_matrix(), snapshot.vertices),
         "faces": lambda: _same(mesh.face_matrix(), snapshot.faces),
         "edges": lambda: _same(mesh.edge_matrix(), snapshot.ply.edges),
-        "vertex selection": lambda: np.array_equal(
-            mesh.vertex_selection_array(), selected(vertices)
+        "vertex selection": lambda: (
+            not has_flags or np.array_equal(mesh.vertex_selection_array(), selected(vertices))
         ),
-        "face selection": lambda: np.array_equal(mesh.face_selection_array(), selected(faces)),
+        "face selection": lambda: (
+            not has_flags or np.array_equal(mesh.face_selection_array(), selected(faces))
+        ),
         # A copy from another set has them in any case.
         "vertex colours": lambda: copied or mesh.has_vertex_color() == ("red" in names),
         "vertex scalars": lambda: copied or mesh.has_vertex_scalar() == ("quality" in names),

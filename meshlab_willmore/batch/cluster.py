@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from ..machine import core_count
 from ..messages import one_line
-from .pool import STARTING, Attempted, PoolSettings, Seat
+from .pool import STARTING, PoolSettings, Seat
 from .process import CRASH, ERROR, Ended, Task
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ class Cluster(Generic[Key]):
         tasks: Iterable[tuple[Key, Task]],
         listen: Callable[[Key, Any], None] = lambda key, message: None,
         tick: Callable[[], object] | None = None,
-    ) -> Iterator[tuple[Key, Attempted]]:
+    ) -> Iterator[tuple[Key, Ended]]:
         """As `Pool.ended`, but `tick` is never called.
 
         Raises `ConnectionError` if the scheduler is lost.
@@ -74,13 +74,13 @@ class Cluster(Generic[Key]):
                 future = next(completed)
                 key, task, losses = running.pop(future)
                 if future.status == "finished":
-                    attempted, messages = future.result()
+                    ended, messages = future.result()
                     for message in messages:
                         listen(key, message)
-                    yield key, attempted
+                    yield key, ended
                 elif losses >= _LOSSES:
                     reason = f"the machine that did it was lost {losses} times"
-                    yield key, Attempted(Ended(CRASH, reason=reason), losses)
+                    yield key, Ended(CRASH, reason=reason, attempts=losses)
                 else:
                     self._check(future)
                     submit(key, task, losses + 1)
@@ -110,12 +110,12 @@ _free: dict[PoolSettings, list[Seat]] = {}
 _lock = threading.Lock()
 
 
-def attempt(task: Task, settings: PoolSettings) -> tuple[Attempted, list[Any]]:
+def attempt(task: Task, settings: PoolSettings) -> tuple[Ended, list[Any]]:
     """Do a task in a process that stays alive for others; return its messages too."""
     host = socket.gethostname()
     if settings.folder is not None and not os.path.isdir(settings.folder):
         reason = f"{host} has no folder {settings.folder}; start the batch in one that all share"
-        return Attempted(Ended(ERROR, reason=reason, of_machine=True, stops_all=True), 1), []
+        return Ended(ERROR, reason=reason, of_machine=True, stops_all=True), []
     messages: list[Any] = []
 
     def listen(message: Any) -> None:
@@ -124,10 +124,10 @@ def attempt(task: Task, settings: PoolSettings) -> tuple[Attempted, list[Any]]:
         messages.append(message)
 
     seat = _seat(settings)
-    attempted = seat.attempt(task, listen)
+    ended = seat.attempt(task, listen)
     with _lock:
         _free[settings].append(seat)
-    return attempted._replace(ended=attempted.ended._replace(host=host)), messages
+    return ended._replace(host=host), messages
 
 
 def _seat(settings: PoolSettings) -> Seat:

@@ -95,13 +95,6 @@ def remove_stale(folders: Iterable[Path]) -> None:
                     shutil.rmtree(entry.path, ignore_errors=True)
 
 
-class Attempted(NamedTuple):
-    """How a task ended in the last attempt, and how many there were."""
-
-    ended: Ended
-    attempts: int
-
-
 class Seat:
     """A place for one worker process, which is started when it is needed."""
 
@@ -113,7 +106,7 @@ class Seat:
         # Whether the process has done nothing but its warm-up, and whether it has done that.
         self._is_fresh = self._is_warm = False
 
-    def attempt(self, task: Task, listen: Callable[[Any], None]) -> Attempted:
+    def attempt(self, task: Task, listen: Callable[[Any], None]) -> Ended:
         """Do a task, again where it fails and may; `Phase` messages begin each attempt."""
         attempts = 0
         while True:
@@ -132,7 +125,7 @@ class Seat:
             attempts += 1
             is_final = ended.status == DONE or ended.stops_all or self._is_closed
             if is_final or attempts > self._settings.retries:
-                return Attempted(ended, attempts)
+                return ended._replace(attempts=attempts)
 
     def start(self) -> WorkerProcess:
         """Start the process unless it runs. Raises `InterruptedError` if the place was closed."""
@@ -192,7 +185,7 @@ class Pool(Generic[Key]):
         self.running: dict[int, tuple[Key, str]] = {}
         self._settings = settings
         self._seats = [Seat(settings) for _ in range(settings.workers)]
-        self._results: SimpleQueue[tuple[Key, Attempted] | BaseException | None] = SimpleQueue()
+        self._results: SimpleQueue[tuple[Key, Ended] | BaseException | None] = SimpleQueue()
         self._is_warm = threading.Event()
         self._threads: list[threading.Thread] = []
         self._lock = threading.Lock()
@@ -208,7 +201,7 @@ class Pool(Generic[Key]):
         tasks: Iterable[tuple[Key, Task]],
         listen: Callable[[Key, Any], None] = lambda key, message: None,
         tick: Callable[[], object] = lambda: None,
-    ) -> Iterator[tuple[Key, Attempted]]:
+    ) -> Iterator[tuple[Key, Ended]]:
         """Do tasks, each when a worker is free; give their keys with how they ended, as they end.
 
         `listen` is called with keys and messages, in other threads, and `tick` about twice a second
@@ -231,13 +224,13 @@ class Pool(Generic[Key]):
             else:
                 yield result
 
-    def _next(self, tick: Callable[[], object]) -> tuple[Key, Attempted] | BaseException | None:
+    def _next(self, tick: Callable[[], object]) -> tuple[Key, Ended] | BaseException | None:
         while True:
             with suppress(Empty):
                 return self._results.get(timeout=_SECONDS)
             tick()
 
-    def left_over(self) -> Iterator[tuple[Key, Attempted]]:
+    def left_over(self) -> Iterator[tuple[Key, Ended]]:
         """What has ended, but was not given yet: the caller has stopped."""
         with suppress(Empty):
             while True:

@@ -105,6 +105,8 @@ class Ended(NamedTuple):
         How long it took.
     host : str
         The machine; empty for this one.
+    attempts : int
+        How many there were; this is the last one.
     """
 
     status: str
@@ -117,6 +119,7 @@ class Ended(NamedTuple):
     memory: int | None = None
     seconds: float = 0.0
     host: str = ""
+    attempts: int = 1
 
 
 class WorkerProcess:

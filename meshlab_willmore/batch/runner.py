@@ -26,7 +26,7 @@ from . import records
 from .cluster import Cluster
 from .jobs import Job, check_apart, plan, reports_of
 from .pages import write_table
-from .pool import RENEWED_AFTER, STARTING, Attempted, Pool, PoolSettings, remove_stale
+from .pool import RENEWED_AFTER, STARTING, Pool, PoolSettings, remove_stale
 from .process import CRASH, DONE, ERROR, MEMORY, TIMEOUT, Ended, Phase, Task
 from .recipe import Recipe, Script, described, recipe_of
 from .records import BAD_FILE, Earlier, Records, Result
@@ -293,10 +293,10 @@ class Batch:
 
     def _record_left_over(self, own: Records) -> None:
         """Record what has ended meanwhile, where the caller takes no more results."""
-        for key, attempted in self._pool.left_over() if self._pool is not None else ():
+        for key, ended in self._pool.left_over() if self._pool is not None else ():
             # Why the caller stops is more important than an error of the log.
             with suppress(OSError):
-                own.add(self._result(key, attempted))
+                own.add(self._result(key, ended))
 
     def _results(self, tick: Callable[[], object]) -> Iterator[Result]:
         check_variables()
@@ -306,7 +306,7 @@ class Batch:
                 tasks.append((key, self._task(job)))
             else:
                 ended = Ended(ERROR, reason=one_line(job.problem), phase=READING)
-                yield self._result(key, Attempted(ended, 1))
+                yield self._result(key, ended)
         if not tasks:
             return
 
@@ -317,10 +317,10 @@ class Batch:
                 self._heard[key].append(message)
 
         tick()
-        for key, attempted in self._engine(len(tasks)).ended(tasks, listen, tick):
-            if attempted.ended.stops_all:
-                raise MachineError(attempted.ended.reason)
-            yield self._result(key, attempted)
+        for key, ended in self._engine(len(tasks)).ended(tasks, listen, tick):
+            if ended.stops_all:
+                raise MachineError(ended.reason)
+            yield self._result(key, ended)
 
     def _engine(self, count: int) -> Pool[int] | Cluster[int]:
         options, recipe = self._options, self._recipe
@@ -344,8 +344,8 @@ class Batch:
         folders = tuple({str(place_of(output.path).parent) for output in job.outputs})
         return Task(_WORK, work, self._options.timeout, folders)
 
-    def _result(self, key: int, attempted: Attempted) -> Result:
-        job, ended, heard = self.jobs[key], attempted.ended, self._heard.pop(key, [])
+    def _result(self, key: int, ended: Ended) -> Result:
+        job, heard = self.jobs[key], self._heard.pop(key, [])
         made = ended.value if ended.status == DONE else Made()
         is_replaced = ended.status == DONE and job.is_in_place
         size, modified = records.stamp(job.sources) if is_replaced else self._stamps[key]
@@ -358,7 +358,7 @@ class Batch:
             reason=reason,
             seconds=ended.seconds,
             memory=ended.memory,
-            attempts=attempted.attempts,
+            attempts=ended.attempts,
             steps=made.steps,
             returned=made.returned,
             before=made.before,

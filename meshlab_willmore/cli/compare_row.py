@@ -83,7 +83,7 @@ def run(
 
     task = Task(_COMPUTE, Computation(comparison, row, page))
     with closing(Seat(PoolSettings(threads=core_count()))) as seat:
-        ended = seat.attempt(task, listen).ended
+        ended = seat.attempt(task, listen)
     if ended.status == DONE:
         outcome: Outcome = ended.value
         return outcome

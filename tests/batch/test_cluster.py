@@ -103,7 +103,7 @@ def test_bad_tasks_and_a_lost_machine_cost_no_good_task():
         client.wait_for_workers(2)
         threading.Timer(6.0, first.kill).start()
         settings = PoolSettings(memory=2**29, folder=str(Path.cwd()))
-        ended = {key: a.ended for key, a in Cluster(client, settings).ended(named)}
+        ended = dict(Cluster(client, settings).ended(named))
     assert [ended[number].value for number in range(20)] == list(range(20))
     assert {name: ended[name].status for name in bad} == {n: s for n, (_, s) in bad.items()}
 

@@ -55,7 +55,7 @@ def test_bad_tasks_cost_themselves_only():
     good = [task("give", number) for number in range(8)]
     before = thing_left() if sys.platform == "linux" else None
     found = ended([*good[:4], *bad, *good[4:]], PoolSettings(workers=2))
-    outcomes = [found[place].ended for place in range(15)]
+    outcomes = [found[place] for place in range(15)]
     assert [e.value for e in (*outcomes[:4], *outcomes[11:])] == list(range(8))
     crash, hang, fail, leave, crashed, untidy, half = outcomes[4:11]
     assert (crash.status, crash.reason) == (CRASH, "crashed (SIGSEGV)")
@@ -77,49 +77,49 @@ def test_bad_tasks_cost_themselves_only():
 @POSIX
 def test_task_is_not_blamed_for_what_others_left_behind():
     first, second, third = seated(task("give", 1), task("crash_unless_fresh", 2), task("give", 3))
-    assert (second.ended.status, second.ended.value, second.attempts) == (DONE, 2, 1)
-    assert (first.ended.value, third.ended.value) == (1, 3)
+    assert (second.status, second.value, second.attempts) == (DONE, 2, 1)
+    assert (first.value, third.value) == (1, 3)
 
 
 @POSIX
 def test_crash_of_a_fresh_worker_is_the_tasks_own():
     """Each attempt adds a letter."""
     (crashed,) = seated(task("crash_and_count", "count"), warm_up=task("give", 0))
-    assert (crashed.ended.status, Path("count").read_text()) == (CRASH, "x")
+    assert (crashed.status, Path("count").read_text()) == (CRASH, "x")
 
 
 def test_worker_stays_alive_and_is_renewed():
-    counts = [a.ended.value for a in seated(*[task("count")] * 3, renewed_after=2)]
+    counts = [a.value for a in seated(*[task("count")] * 3, renewed_after=2)]
     assert [number for number, _ in counts] == [1, 2, 1]
     assert counts[0][1] == counts[1][1] != counts[2][1]
 
 
 def test_failed_task_is_done_again():
     once, never = seated(task("fail_once", "mark"), task("fail"), retries=1)
-    assert (once.ended.value, once.attempts) == ("at last", 2)
-    assert (never.ended.status, never.attempts) == (ERROR, 2)
+    assert (once.value, once.attempts) == ("at last", 2)
+    assert (never.status, never.attempts) == (ERROR, 2)
 
 
 @LINUX
 @pytest.mark.slow
 def test_memory_is_limited():
     eaten, given = seated(task("eat"), task("give", 1), memory=GIB // 2)
-    assert eaten.ended.status == MEMORY
-    assert eaten.ended.reason == "needs more than the memory limit of 0.5 GiB"
-    assert given.ended.value == 1
-    assert 0 < given.ended.memory < GIB
+    assert eaten.status == MEMORY
+    assert eaten.reason == "needs more than the memory limit of 0.5 GiB"
+    assert given.value == 1
+    assert 0 < given.memory < GIB
 
 
 @LINUX
 def test_a_warm_up_is_not_limited():
     limited, free = seated(task("limit"), task("limit")._replace(is_limited=False), memory=GIB)
-    assert 0 < limited.ended.value < free.ended.value or free.ended.value == -1
+    assert 0 < limited.value < free.value or free.value == -1
 
 
 @pytest.mark.slow
 def test_output_of_a_task_is_no_answer():
     (printed,) = seated(task("print_noise", "answer"))
-    assert printed.ended.value == "answer"
+    assert printed.value == "answer"
 
 
 @POSIX
@@ -145,7 +145,7 @@ def test_end_in_the_middle_is_quick_and_leaves_nothing():
 def test_idle_worker_that_is_killed_is_replaced():
     """As the system does for lack of memory."""
     seat = Seat(PoolSettings())
-    (_, pid) = seat.attempt(task("count"), lambda message: None).ended.value
+    (_, pid) = seat.attempt(task("count"), lambda message: None).value
     os.kill(pid, 9)
-    assert seat.attempt(task("give", 1), lambda message: None).ended.value == 1
+    assert seat.attempt(task("give", 1), lambda message: None).value == 1
     seat.close()

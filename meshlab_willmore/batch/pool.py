@@ -21,7 +21,7 @@ from tempfile import gettempdir
 from typing import Any, Generic, NamedTuple, TypeVar
 
 from ..files import remove_drafts
-from .process import CRASH, DONE, ERROR, MEMORY, Ended, Phase, Task, WorkerProcess, WorkerSettings
+from .process import CRASH, DONE, ERROR, MEMORY, Ended, Phase, Task, WorkerProcess
 
 Key = TypeVar("Key")
 
@@ -133,9 +133,7 @@ class Seat:
             return self._worker
         settings = self._settings
         mark = f"{own_mark()}-{next(_numbers)}"
-        worker = WorkerProcess(
-            WorkerSettings(settings.threads, settings.memory, mark, settings.folder)
-        )
+        worker = WorkerProcess(mark, settings.threads, settings.memory, settings.folder)
         self._is_fresh, self._is_warm = True, settings.warm_up is None
         with self._lock:
             self._worker = worker

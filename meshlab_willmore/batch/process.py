@@ -38,27 +38,6 @@ _THREADS = "NUMBA_NUM_THREADS"
 LENGTH = 8
 
 
-class WorkerSettings(NamedTuple):
-    """What is the same for all workers of a pool.
-
-    Attributes
-    ----------
-    threads : int
-        For Numba, in each process.
-    memory : int or None
-        How many bytes a process may use.
-    mark : str
-        Ends the names of temporary folders, those beside outputs too.
-    folder : str or None
-        The working folder; that of this process if None.
-    """
-
-    threads: int = 1
-    memory: int | None = None
-    mark: str = ""
-    folder: str | None = None
-
-
 class Task(NamedTuple):
     """A function to call in a worker, its argument, and how many seconds that may take.
 
@@ -123,28 +102,32 @@ class Ended(NamedTuple):
 
 
 class WorkerProcess:
-    """A process that is alive from the start to `close`, or to a task that it does not survive."""
+    """A process that is alive from the start to `close`, or to a task that it does not survive.
 
-    def __init__(self, settings: WorkerSettings) -> None:
+    The mark ends the names of its temporary folders, those beside outputs too. The rest is as in
+    `meshlab_willmore.batch.pool.PoolSettings`.
+    """
+
+    def __init__(self, mark: str, threads: int, memory: int | None, folder: str | None) -> None:
         self.done = 0
-        self.mark = settings.mark
-        self._memory = settings.memory
+        self.mark = mark
+        self._memory = memory
         self._phase = ""
         self._timed_out: float | None = None
         self._lock = threading.Lock()
         self._timers: dict[str, threading.Timer] = {}
         self._stack = ExitStack()
-        folder = str(self._stack.enter_context(temporary_folder(mark=settings.mark)))
-        variables = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder)
-        if _allows_more(settings.threads):
-            variables[_THREADS] = str(settings.threads)
+        temporary = str(self._stack.enter_context(temporary_folder(mark=mark)))
+        variables = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), temporary)
+        if _allows_more(threads):
+            variables[_THREADS] = str(threads)
         try:
             self._process = subprocess.Popen(
                 [sys.executable, "-c", _PROGRAM.format(path=sys.path, module=_MODULE)],
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.DEVNULL,
-                cwd=settings.folder,
+                cwd=folder,
                 env={**os.environ, **variables},
                 # Ctrl-C on a terminal is for the parent alone, which then ends this process.
                 start_new_session=True,
@@ -155,7 +138,7 @@ class WorkerProcess:
         if hasattr(os, "waitid"):
             threading.Thread(target=self._end_group, daemon=True).start()
         with suppress(BrokenPipeError):
-            _write(_stream(self._process.stdin), settings)
+            _write(_stream(self._process.stdin), (mark, memory))
 
     @property
     def pid(self) -> int:

@@ -16,7 +16,7 @@ from queue import SimpleQueue
 
 from .. import files, machine, memory
 from ..messages import reason
-from .process import BEGUN, DONE, ERROR, LENGTH, MEMORY, Ended, Task, WorkerSettings, framed
+from .process import BEGUN, DONE, ERROR, LENGTH, MEMORY, Ended, Task, framed
 
 # What C++ code says of a failed allocation; and, where addresses are limited, what else fails for
 # lack of them: threads, and libraries (llvmlite has its own words for those).
@@ -30,13 +30,12 @@ _NO_ADDRESSES = re.compile(
 def main() -> None:
     """Do tasks until the standard input ends."""
     tasks, answers = _own_streams()
-    settings: WorkerSettings = pickle.loads(_read(tasks))
-    files.draft_mark = settings.mark
+    files.draft_mark, limit = pickle.loads(_read(tasks))
     memory.no_core_files()
     received: SimpleQueue[bytes] = SimpleQueue()
     threading.Thread(target=_receive, args=(tasks, received), daemon=True).start()
     while True:
-        _send(answers, _ended(pickle.loads(received.get()), settings, answers))
+        _send(answers, _ended(pickle.loads(received.get()), limit, answers))
 
 
 def _own_streams() -> tuple[int, int]:
@@ -87,18 +86,18 @@ def _send(answers: int, message: object) -> None:
         data = data[os.write(answers, data) :]
 
 
-def _ended(task: Task, settings: WorkerSettings, answers: int) -> Ended:
+def _ended(task: Task, limit: int | None, answers: int) -> Ended:
     """Do a task, and report how it ended."""
     memory.reset_peak()
     try:
         module, _, name = task.function.partition(":")
         function = getattr(importlib.import_module(module), name)
         _send(answers, BEGUN)
-        with memory.limited(settings.memory if task.is_limited else None):
+        with memory.limited(limit if task.is_limited else None):
             value = function(task.argument, lambda message: _send(answers, message))
         framed(value)
     except Exception as error:
-        return _failed(error, settings.memory)._replace(memory=memory.peak())
+        return _failed(error, limit)._replace(memory=memory.peak())
     return Ended(DONE, value, memory=memory.peak())
 
 

@@ -289,7 +289,7 @@ BATCHES = [
     Fault(
         "memory has no limit",
         "batch/worker.py",
-        "with memory.limited(settings.memory if task.is_limited else None):",
+        "with memory.limited(limit if task.is_limited else None):",
         "with memory.limited(None):",
         "tests/batch/test_pool.py",
     ),

@@ -92,33 +92,23 @@ class Length(float):
 
 
 class Option(NamedTuple):
-    """An option of the flips.
+    """An option of the flips."""
 
-    Attributes
-    ----------
-    name, label, help : str
-        The keyword, in lower case and without underscores; what MeshLab would write beside the
-        field; and what the option does, in whole sentences.
-    type : type
-        bool, int, float, `Length`, or str: a choice, or what can be a text as well as a number.
-    default : object
-        That of the filter; None: it depends on the mesh. Of a `Length`, in percent of the bounding
-        box's diagonal.
-    rule : callable
-        Checks a value of the option; see `checked`.
-    choices : tuple of str
-        The names that a value can be.
-    least, most : int or None
-        The limits of an integer.
-    """
-
+    # The keyword: lower case, without underscores.
     name: str
+    # bool, int, float, `Length`, or str: a choice, or what can be a text as well as a number.
     type: type
+    # That of the filter; None: it depends on the mesh. Of a `Length`, in percent of the bounding
+    # box's diagonal.
     default: Any
+    # What MeshLab would write beside the field; and what the option does, in whole sentences.
     label: str
     help: str
+    # Checks a value of the option; see `checked`.
     rule: Callable[[Option, Any], Any]
+    # The names that a value can be.
     choices: tuple[str, ...] = ()
+    # The limits of an integer.
     least: int = 0
     most: int | None = None
 

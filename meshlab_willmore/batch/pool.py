@@ -36,32 +36,20 @@ _SECONDS = 0.5
 
 
 class PoolSettings(NamedTuple):
-    """How many processes a pool has, and what it does with them.
-
-    Attributes
-    ----------
-    workers : int
-        How many.
-    retries : int
-        How often a task that failed is done again.
-    renewed_after : int
-        After how many tasks a process is replaced.
-    warm_up : Task or None
-        What each process does first, one of them before all others: it compiles what they load.
-    threads : int
-        For Numba, in each process.
-    memory : int or None
-        The most bytes that a process may use.
-    folder : str or None
-        The working folder of the processes; that of this one if None.
-    """
+    """How many processes a pool has, and what it does with them."""
 
     workers: int = 1
+    # How often a task that failed is done again.
     retries: int = 0
+    # After how many tasks a process is replaced.
     renewed_after: int = RENEWED_AFTER
+    # What each process does first, one of them before all others: it compiles what they load.
     warm_up: Task | None = None
+    # For Numba, in each process.
     threads: int = 1
+    # The most bytes that a process may use.
     memory: int | None = None
+    # The working folder of the processes; that of this one if None.
     folder: str | None = None
 
 

@@ -62,42 +62,25 @@ class Phase(NamedTuple):
 
 
 class Ended(NamedTuple):
-    """How a task ended.
+    """How a task ended."""
 
-    Attributes
-    ----------
-    status : str
-        `DONE`, `ERROR`, `CRASH`, `TIMEOUT` or `MEMORY`.
-    value : object
-        What the function returned.
-    reason : str
-        Why there is no value, in one line.
-    trace : str
-        The traceback of an error.
-    of_machine, stops_all : bool
-        Whether the machine is at fault, and whether all other tasks would fail in the same way.
-    phase : str
-        In which phase it failed.
-    memory : int or None
-        The most bytes that the process had in memory meanwhile.
-    seconds : float
-        How long it took.
-    host : str
-        The machine; empty for this one.
-    attempts : int
-        How many there were; this is the last one.
-    """
-
+    # DONE, ERROR, CRASH, TIMEOUT or MEMORY.
     status: str
+    # What the function returned; or why it did not, in one line, and the traceback of an error.
     value: Any = None
     reason: str = ""
     trace: str = ""
+    # Whether the machine is at fault, and whether all other tasks would fail in the same way.
     of_machine: bool = False
     stops_all: bool = False
+    # In which phase it failed.
     phase: str = ""
+    # The most bytes that the process had in memory meanwhile, and how long it took.
     memory: int | None = None
     seconds: float = 0.0
+    # The machine; empty for this one.
     host: str = ""
+    # How many there were; this is the last one.
     attempts: int = 1
 
 

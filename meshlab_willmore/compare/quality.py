@@ -17,31 +17,21 @@ WORST_SHARE = 0.01
 
 
 class Quality(NamedTuple):
-    """Quality measures of a mesh; lengths in units of the coordinates.
+    """Quality measures of a mesh; lengths in units of the coordinates."""
 
-    Attributes
-    ----------
-    flips : int
-        Edges that the initial mesh does not have.
-    willmore_energy, area, absolute_gaussian_curvature, absolute_mean_curvature : float
-        As `meshlab_willmore.measures` returns them.
-    worst_shape, mean_shape : float
-        4 sqrt(3) area / (sum of squared sides) of the triangles, 1 if equilateral: the 1 %
-        quantile, and the mean.
-    self_intersecting : int
-        Faces that intersect another, as PyMeshLab counts them.
-    normal_error, distance : float or None
-        See `meshlab_willmore.compare.reference.Deviation`; None without a reference.
-    """
-
+    # Edges that the initial mesh does not have.
     flips: int
+    # As `meshlab_willmore.measures` returns them.
     willmore_energy: float
     area: float
     absolute_gaussian_curvature: float
     absolute_mean_curvature: float
+    # As `meshlab_willmore.measure.triangle_shapes`: the 1 % quantile, and the mean.
     worst_shape: float
     mean_shape: float
+    # Faces that intersect another, as PyMeshLab counts them.
     self_intersecting: int
+    # See `meshlab_willmore.compare.reference.Deviation`; None without a reference.
     normal_error: float | None
     distance: float | None
 

@@ -88,19 +88,13 @@ class ReferenceMesh(NamedTuple):
 
 
 class Deviation(NamedTuple):
-    """How far a mesh is from its reference.
+    """How far a mesh is from its reference."""
 
-    Attributes
-    ----------
-    normal_error : float
-        Mean over the faces of the angle between the face's normal and that of the reference where
-        it is nearest to the face's centroid, in degrees. Faces without a normal don't count.
-    distance : float
-        Root mean square over the area of the mesh of the distance to the reference, from three
-        points in each face.
-    """
-
+    # Mean over the faces of the angle between the face's normal and that of the reference where it
+    # is nearest to the face's centroid, in degrees. Faces without a normal don't count.
     normal_error: float
+    # Root mean square over the area of the mesh of the distance to the reference, from three points
+    # in each face.
     distance: float
 
 

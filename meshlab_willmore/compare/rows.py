@@ -18,23 +18,14 @@ _SAME_FOR_ALL = {"selection": False, "allowloss": True}
 
 
 class Row(NamedTuple):
-    """One way to flip the edges of a mesh.
-
-    Attributes
-    ----------
-    name : str
-        The label of the row.
-    filter : str
-        The filter's name; empty for the initial mesh.
-    given : dict
-        The parameters of the filter that differ from their defaults.
-    search, energy, preset : str or None
-        Those of our filter.
-    """
+    """One way to flip the edges of a mesh."""
 
     name: str
+    # Empty for the initial mesh.
     filter: str
+    # The parameters of the filter that differ from their defaults.
     given: dict[str, Any]
+    # Those of our filter.
     search: str | None = None
     energy: str | None = None
     preset: str | None = None

@@ -133,24 +133,16 @@ def show_str(value: Any) -> str:
 
 
 class RichType(NamedTuple):
-    """How values of a type are written in a script.
+    """How values of a type are written in a script."""
 
-    Attributes
-    ----------
-    fields : tuple of str
-        The attributes that hold the value.
-    parse, show : callable
-        One field's text to Python and back. `parse` raises `ValueError`, `show` `TypeError`.
-    expected : str
-        What a value in Python has to be.
-    needs : tuple of str
-        Further attributes without which MeshLab drops the parameter.
-    """
-
+    # The attributes that hold the value.
     fields: tuple[str, ...]
+    # One field's text to Python and back: they raise `ValueError`, and `TypeError`.
     parse: Callable[[str], Any]
     show: Callable[[Any], str]
+    # What a value in Python has to be.
     expected: str
+    # Further attributes without which MeshLab drops the parameter.
     needs: tuple[str, ...] = ()
 
 

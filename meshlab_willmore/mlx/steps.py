@@ -136,50 +136,32 @@ class ScriptError(ValueError):
 
 
 class Gap(NamedTuple):
-    """What of a step could not be read, or only with the filter's help.
+    """What of a step could not be read, or only with the filter's help."""
 
-    Attributes
-    ----------
-    broken : tuple of Param
-        Parameters without a value that can be read; their value is None.
-    untyped : frozenset of str
-        Names of parameters that have no type where they should have one.
-    is_cut : bool
-        Whether the step may have had more parameters.
-    is_nameless : bool
-        Whether the step has no name.
-    follows_unread : bool
-        Whether something before the step was not read, which may have been another step.
-    """
-
+    # Parameters without a value that can be read; their value is None.
     broken: tuple[Param, ...] = ()
+    # Names of parameters that have no type where they should have one.
     untyped: frozenset[str] = frozenset()
+    # Whether the step may have had more parameters.
     is_cut: bool = False
+    # Whether the step has no name.
     is_nameless: bool = False
+    # Whether something before the step was not read, which may have been another step.
     follows_unread: bool = False
 
 
 class Reading(NamedTuple):
-    """All that could be read of a script.
+    """All that could be read of a script."""
 
-    Attributes
-    ----------
-    steps : tuple of Step
-        What could be read; steps and parameters with faults are left out, or in part.
-    faults : tuple of Fault
-        Why the others could not.
-    gaps : mapping of int to Gap
-        By a step's number.
-    has_comments : bool
-        Whether there are comments, which no step holds.
-    is_loose : bool
-        Whether it is XML only with blanks between attributes, and each of them once.
-    """
-
+    # What could be read; steps and parameters with faults are left out, or in part.
     steps: tuple[Step, ...]
+    # Why the others could not.
     faults: tuple[Fault, ...] = ()
+    # By a step's number.
     gaps: Mapping[int, Gap] = MappingProxyType({})
+    # Whether there are comments, which no step holds.
     has_comments: bool = False
+    # Whether it is XML only with blanks between attributes, and each of them once.
     is_loose: bool = False
 
 

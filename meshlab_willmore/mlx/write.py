@@ -54,22 +54,7 @@ def to_xml(steps: Iterable[Step]) -> str:
 
 
 def write(path: str | PathLike[str], steps: Iterable[Step]) -> None:
-    """Write a filter script atomically.
-
-    Parameters
-    ----------
-    path : str or path
-        An existing file is replaced, also where a link leads to it. A pipe or device gets the
-        text.
-    steps : iterable of Step
-
-    Raises
-    ------
-    ScriptError
-        As `to_xml`.
-    OSError
-        In one line, with the file's name and the reason.
-    """
+    """Write a filter script atomically, or into a pipe or device; errors as in `to_xml`."""
     files.write(Path(path), to_xml(steps).encode())
 
 

@@ -19,29 +19,19 @@ PERCENT = 100.0
 
 
 class Quantity(NamedTuple):
-    """A quantity whose distribution is shown.
-
-    Attributes
-    ----------
-    title, unit : str
-    values : callable
-        The values (k,) of a mesh that was examined.
-    edges : (b + 1,) float64
-        Of the bins; the last one has what is larger, too, and the first one what is smaller.
-    ticks : sequence of (float, str)
-        Where the axis has numbers, and which.
-    help : str
-        What is good, in one sentence.
-    is_log : bool
-        Whether heights are logarithmic, where few values far out matter.
-    """
+    """A quantity whose distribution is shown."""
 
     title: str
     unit: str
+    # The values (k,) of a mesh that was examined.
     values: Callable[[Examined], Array]
+    # Of the bins; the last one has what is larger, too, and the first one what is smaller.
     edges: Array
+    # Where the axis has numbers, and which.
     ticks: Sequence[tuple[float, str]]
+    # What is good, in one sentence.
     help: str
+    # Whether heights are logarithmic, where few values far out matter.
     is_log: bool = False
 
 

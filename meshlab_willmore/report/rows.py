@@ -20,28 +20,16 @@ MINUS, DASH = "\N{MINUS SIGN}", "\N{EN DASH}"
 
 
 class Row(NamedTuple):
-    """A measure before and after.
-
-    Attributes
-    ----------
-    name, help : str
-        Its name, and what it is.
-    before, after : float or None
-        None where there is none.
-    unit : str
-        Written behind the numbers.
-    better : int
-        -1 if lower is better, 1 if higher is, 0 if neither.
-    note : str
-        What to say in place of the change.
-    """
+    """A measure before and after; None where there is none."""
 
     name: str
     help: str
     before: float | None
     after: float | None
     unit: str = ""
+    # -1 if lower is better, 1 if higher is, 0 if neither.
     better: int = 0
+    # What to say in place of the change.
     note: str = ""
 
 

@@ -29,32 +29,18 @@ _ATTRIBUTES = {"Name": ' class="name"', "Status": ' aria-sort="ascending"'}
 
 
 class Entry(NamedTuple):
-    """A row of the table.
-
-    Attributes
-    ----------
-    name : str
-        Of the mesh.
-    status : str
-        How it ended, in a word.
-    is_done : bool
-        Whether that is well.
-    messages : tuple of str
-        Why it failed, and notes.
-    picture : bytes
-        A PNG file; empty if there is none.
-    link : str
-        The address of its own page, from this one; empty if it has none.
-    numbers : mapping
-        By the head of the column; None where there is none.
-    """
+    """A row of the table: a mesh, how it ended in a word, and whether that is well."""
 
     name: str
     status: str
     is_done: bool
+    # Why it failed, and notes.
     messages: tuple[str, ...] = ()
+    # A PNG file; empty if there is none.
     picture: bytes = b""
+    # The address of its own page, from this one; empty if it has none.
     link: str = ""
+    # By the head of the column; None where there is none.
     numbers: Mapping[str, float | None] = {}
 
 

@@ -17,8 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from .. import memory
 from ..files import place_of
 from ..machine import MachineError, MachineWarning, core_count
-from ..mesh_files.paths import Output, check_output, find_inputs
-from ..mesh_files.projects import check_layers
+from ..mesh_files.paths import Output, find_inputs
 from ..messages import WrongUse, one_line
 from ..numba_settings import check_variables
 from ..progress import Listen, Listener
@@ -29,7 +28,8 @@ from .pages import write_table
 from .pool import RENEWED_AFTER, STARTING, Pool, PoolSettings, remove_stale
 from .process import CRASH, DONE, ERROR, MEMORY, TIMEOUT, Ended, Phase, Task
 from .recipe import Recipe, Script, described, recipe_of
-from .records import BAD_FILE, Earlier, Records, Result
+from .records import BAD_FILE, Records, Result
+from .resuming import divided
 from .shards import shard_of
 from .work import READING, Line, Made, Note, Picture, Work
 
@@ -192,8 +192,6 @@ class Batch:
 
     Attributes
     ----------
-    jobs : list of Job
-        What `results` does.
     earlier : list of Result
         What stays as an earlier run has left it.
     """
@@ -207,51 +205,28 @@ class Batch:
         if options.log is not None:
             records.check(options.log, options.resume, options.force)
         log = options.log if options.resume else None
-        known = Earlier({}, {}) if log is None else records.read(log)
-        self._begun = known.begun.get(self._hash, time.time())
-        self.earlier: list[Result] = []
-        self.jobs: list[Job] = []
-        self._places: list[int] = []
-        # Taken before the inputs are read: one that changes meanwhile is another one.
-        self._stamps: list[tuple[int, int]] = []
-        for place, job in enumerate(jobs):
-            outputs = [str(output.path) for output in job.outputs]
-            stamp = records.stamp(job.sources)
-            settled = known.settles(job.name, self._hash, stamp, outputs)
-            if settled is not None and (settled.is_done or not options.retry_failed):
-                self.earlier.append(settled._replace(place=place))
-            else:
-                self.jobs.append(job)
-                self._places.append(place)
-                self._stamps.append(stamp)
-        if options.resume:
-            self._check_outputs()
+        self._left, self.earlier, self._begun = divided(
+            jobs, self._hash, log, options.retry_failed, options.force
+        )
         if options.resume and not recipe.dry_run:
-            remove_stale({output.path.parent for job in self.jobs for output in job.outputs})
+            remove_stale({output.path.parent for one in self._left for output in one.job.outputs})
         self._pool: Pool[int] | None = None
         # The results that the table shows.
         self._shown = [*self.earlier]
         # How many results were taken, and the messages of the workers by job.
-        self._count = 0
+        self._done = 0
         self._heard: dict[int, list[Any]] = defaultdict(list)
 
-    def _check_outputs(self) -> None:
-        """Raise `WrongUse` if an output exists that is not of this batch."""
-
-        def is_own(path: Path) -> bool:
-            return path.exists() and path.stat().st_mtime >= self._begun
-
-        for job in self.jobs:
-            for output in job.outputs:
-                check_output(output.path, self._options.force or is_own(output.path))
-                if output.is_project and not self._options.force:
-                    check_layers(output.path, is_own)
+    @property
+    def count(self) -> int:
+        """How many jobs `results` does."""
+        return len(self._left)
 
     @property
     def running(self) -> list[tuple[str, str]]:
         """The names of what is processed at the moment, and the phase that each is in."""
         now = list(self._pool.running.values()) if self._pool is not None else []
-        return [(self.jobs[key].name, phase) for key, phase in now]
+        return [(self._left[key].job.name, phase) for key, phase in now]
 
     def close(self) -> None:
         """End all workers at once, and write the table."""
@@ -279,7 +254,7 @@ class Batch:
                 yield result
                 if self._options.stop and not result.is_done:
                     return
-                self._count += 1
+                self._done += 1
                 self._hear(listener, f"{result.input}: {result.status}")
             if listener is not None:
                 listener.end()
@@ -287,9 +262,9 @@ class Batch:
     def _hear(self, listener: Listener | None, *last: str) -> None:
         """Let a listener hear how many meshes are done, the last one, and what is being done."""
         if listener is not None:
-            done = f"{self._count} of {len(self.jobs)} meshes"
+            done = f"{self._done} of {self.count} meshes"
             now = [f"{name}: {phase}" for name, phase in self.running]
-            listener.hear(self._count / len(self.jobs), ", ".join([done, *last, *now]))
+            listener.hear(self._done / self.count, ", ".join([done, *last, *now]))
 
     def _record_left_over(self, own: Records) -> None:
         """Record what has ended meanwhile, where the caller takes no more results."""
@@ -301,7 +276,7 @@ class Batch:
     def _results(self, tick: Callable[[], object]) -> Iterator[Result]:
         check_variables()
         tasks = []
-        for key, job in enumerate(self.jobs):
+        for key, (job, _, _) in enumerate(self._left):
             if job.problem is None:
                 tasks.append((key, self._task(job)))
             else:
@@ -345,10 +320,10 @@ class Batch:
         return Task(_WORK, work, self._options.timeout, folders)
 
     def _result(self, key: int, ended: Ended) -> Result:
-        job, heard = self.jobs[key], self._heard.pop(key, [])
+        (job, place, stamp), heard = self._left[key], self._heard.pop(key, [])
         made = ended.value if ended.status == DONE else Made()
         is_replaced = ended.status == DONE and job.is_in_place
-        size, modified = records.stamp(job.sources) if is_replaced else self._stamps[key]
+        size, modified = records.stamp(job.sources) if is_replaced else stamp
         status, reason = self._outcome(job, ended)
         return Result(
             job.name,
@@ -373,7 +348,7 @@ class Batch:
             trace=ended.trace,
             lines=tuple(message.text for message in heard if isinstance(message, Line)),
             picture=next((one.png for one in reversed(heard) if isinstance(one, Picture)), b""),
-            place=self._places[key],
+            place=place,
         )
 
     def _outcome(self, job: Job, ended: Ended) -> tuple[str, str]:

@@ -284,13 +284,13 @@ def _progress(batch: Batch, summary: Summary) -> Iterator[Callable[[], None]]:
         running = [f"{Path(name).name}: {phase}" for name, phase in batch.running]
         parts = [f"{summary.done} done, {summary.failed} failed"]
         if count:
-            left = (time.monotonic() - start) / count * (len(batch.jobs) - count)
+            left = (time.monotonic() - start) / count * (batch.count - count)
             parts.append(f"about {duration(left)} left")
-        if count < len(batch.jobs):
+        if count < batch.count:
             parts.append(", ".join(running) or "starting workers")
         return "; ".join(parts)
 
-    with progress.shown("batch", len(batch.jobs)) as status:
+    with progress.shown("batch", batch.count) as status:
         status.next("", text())
         with progress.repeated(lambda: status.detail(text()), _SECONDS):
             yield lambda: status.next("", text())

@@ -309,8 +309,8 @@ BATCHES = [
     ),
     Fault(
         "a file of the user is replaced when a batch goes on",
-        "batch/runner.py",
-        "check_output(output.path, self._options.force or is_own(output.path))",
+        "batch/resuming.py",
+        "check_output(output.path, force or is_own(output.path))",
         "check_output(output.path, True)",
         "tests/batch/test_runner.py",
     ),

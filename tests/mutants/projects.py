@@ -40,7 +40,7 @@ PROJECTS = [
     ),
     Fault(
         "a batch does not see that a mesh of a project has changed",
-        "batch/runner.py",
+        "batch/resuming.py",
         "stamp = records.stamp(job.sources)",
         "stamp = records.stamp(job.inputs)",
         "tests/cli/test_projects.py",

@@ -92,6 +92,7 @@ BAD = [
 ]
 
 
+@pytest.mark.slow
 def test_bad_inputs_are_named_and_the_others_are_processed():
     Path("in").mkdir()
     square("in/a.off")
@@ -117,6 +118,7 @@ def test_bad_inputs_are_named_and_the_others_are_processed():
     assert table.stderr == result.stderr
 
 
+@pytest.mark.usefixtures("workers_here")
 @pytest.mark.parametrize("bad", ["missing.ply", "*.nothing", "text.xyzzy"])
 def test_missing_and_unknown_inputs_do_not_stop_the_others(bad):
     Path("text.xyzzy").write_text("hello")
@@ -139,6 +141,7 @@ def test_input_removed_during_the_run(monkeypatch):
     assert not Path("b.ply").exists()
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_input_without_permission(monkeypatch):
     square("a.off")
     square("b.off")
@@ -171,6 +174,7 @@ def test_folder_without_permission(monkeypatch):
         check_place(Path("closed/c.ply"), force=False)
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_existing_output_of_a_bad_input_is_no_error():
     square("a.off")
     Path("b.off").touch()
@@ -181,6 +185,7 @@ def test_existing_output_of_a_bad_input_is_no_error():
     assert Path("b.ply").read_text() == SQUARE
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_all_inputs_fail():
     Path("a.off").write_text("no mesh")
     Path("b.off").touch()
@@ -199,8 +204,8 @@ def test_all_layers_must_be_readable():
 NAMES = ["a b", "ü", "[a]", "{name}", "a'b", 'a"b', "a#b%20", "-x", "~", "a;b", " a"]
 
 
+@pytest.mark.usefixtures("workers_here")
 @POSIX
-@pytest.mark.slow
 def test_names_with_odd_characters(tmp_path):
     for name in NAMES:
         square(f"{name}.off")
@@ -250,6 +255,7 @@ def test_result_in_a_batch_is_the_same_as_alone():
     assert same_mesh("alone.ply", "cube_two.ply")
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_textures_of_the_same_name_are_not_mixed_up():
     pictures = {"a": ONE_PIXEL, "b": (SAMPLES / "TextureDouble_A.png").read_bytes()}
     for folder, data in pictures.items():
@@ -272,6 +278,7 @@ def test_textures_of_the_same_name_are_not_mixed_up():
     assert (again.exit_code, again.stderr) == (0, "")
 
 
+@pytest.mark.usefixtures("workers_here")
 @pytest.mark.parametrize(
     ("name", "text"),
     [

@@ -289,6 +289,7 @@ ALONE = {
 }
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("make", ALONE.values(), ids=ALONE)
 @pytest.mark.usefixtures("saved")
 def test_each_thing_survives_alone_and_nothing_comes_with_it(make, tmp_path):
@@ -341,6 +342,7 @@ def test_the_whole_mesh_is_loaded_once(tmp_path, monkeypatch):
     assert loads == [(False, 100), (True, 596)]
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("name", [name for name in ALONE if name != "nothing"])
 def test_a_part_is_tried_of_the_first_mesh_of_each_kind(name, tmp_path, monkeypatch):
     loads, load = [], exchange.native.load

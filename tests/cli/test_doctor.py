@@ -71,12 +71,15 @@ def test_failed_check_has_a_fix(monkeypatch):
 
 @pytest.mark.heavy
 @pytest.mark.slow
-def test_checks_pass_on_this_machine():
+def test_checks_pass_on_this_machine(monkeypatch):
+    # What is compiled is asked in tests/test_warmup.
+    checks = [check for check in doctor.CHECKS if check is not doctor.cache]
+    monkeypatch.setattr(doctor, "CHECKS", checks)
     result = call("doctor", "--json")
     assert result.exit_code == 0, result.stdout
     report = json.loads(result.stdout)
     assert report["ok"] is True
-    assert len(report["findings"]) == len(doctor.CHECKS)
+    assert len(report["findings"]) == len(checks) > 4
     numba = next(f for f in report["findings"] if f["name"] == "Numba")
     assert numba["text"].startswith("compiles; threads: ")
 

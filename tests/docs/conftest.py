@@ -17,7 +17,10 @@ SMALL = Sizes(torus_points=200, part_edge_percent=6.0, keep_one_of=60)
 def demo_files(tmp_path_factory):
     """The meshes of the demo, of smaller models."""
     folder = tmp_path_factory.mktemp("demo") / "willmore-demo"
-    run_demo(folder, lambda line: None, SMALL)
+    with pytest.MonkeyPatch.context() as patch:
+        # No page needs them, and they take most of the time.
+        patch.setattr("meshlab_willmore.report.pictures.can_draw", lambda: False)
+        run_demo(folder, lambda line: None, SMALL)
     return folder
 
 

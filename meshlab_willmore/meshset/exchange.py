@@ -36,6 +36,9 @@ _PLACEHOLDER = "texture.png"
 _PART_FILE = "part.ply"
 _PART_SIZE = 100
 NORMAL = ("nx", "ny", "nz")
+# A column that MeshLab reads as opaque grey, in a range of 1; here all vertices are white.
+GREY = "intensity"
+WHITE = 0xFFFFFFFF
 
 # MeshLab writes radii as double, but reads them into the place of a float.
 _READABLE = {"radius": np.dtype("<f4")}
@@ -346,7 +349,11 @@ def _lost(ms: pymeshlab.MeshSet, snapshot: MeshSnapshot, has_flags: bool) -> lis
             not has_flags or np.array_equal(mesh.face_selection_array(), selected(faces))
         ),
         # A copy from another set has them in any case.
-        "vertex colours": lambda: copied or mesh.has_vertex_color() == ("red" in names),
+        "vertex colours": lambda: (
+            (mesh.vertex_color_array() == WHITE).all()
+            if GREY in names
+            else copied or mesh.has_vertex_color() == ("red" in names)
+        ),
         "vertex scalars": lambda: copied or mesh.has_vertex_scalar() == ("quality" in names),
         "face colours": lambda: mesh.has_face_color() == ("red" in face_names),
         "face scalars": lambda: mesh.has_face_scalar() == ("quality" in face_names),

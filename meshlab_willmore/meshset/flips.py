@@ -144,13 +144,13 @@ def _flip_and_save(ms: pymeshlab.MeshSet, values: dict[str, Any]) -> FlipResult:
         return result
     with late.saved(ms, surface, result.faces) as saved:
         _refuse(saved.old.unsupported, values)
+        if saved.new is not None:
+            exchange.give(ms, saved.old, saved.new, saved.folder)
+            return result
         fixed = edge_flags.fixed_edges(saved.old)
         if len(fixed):
             result = _flipped(saved.old, fixed, values)
-        if saved.new is None:
-            _give(ms, saved.old, result)
-        else:
-            exchange.give(ms, saved.old, saved.new, saved.folder)
+        _give(ms, saved.old, result)
     return result
 
 

@@ -20,7 +20,7 @@ import pymeshlab
 
 from ..temporary_files import temporary_folder
 from . import ply
-from .exchange import NORMAL
+from .exchange import GREY, NORMAL, WHITE
 from .snapshot import MESH_FILE, MeshSnapshot, Surface, attribute_keys, take
 
 # To copy a smaller mesh takes no time that counts.
@@ -92,8 +92,13 @@ def _columns(mesh: pymeshlab.Mesh) -> dict[str, np.ndarray]:
     """The columns of the vertices beside positions, as `Mesh` shows them."""
     columns = {}
     if mesh.has_vertex_color():
-        packed = mesh.vertex_color_array().astype("<u4").view(np.uint8).reshape(-1, 4)
-        columns.update({name: packed[:, place] for name, place in _BYTES.items()})
+        packed = mesh.vertex_color_array().astype("<u4")
+        if (packed == WHITE).all():
+            # All meshes that were made of arrays are white, and one number is read in less time.
+            columns[GREY] = np.ones(len(packed), "<f4")
+        else:
+            parts = packed.view(np.uint8).reshape(-1, 4)
+            columns.update({name: parts[:, place] for name, place in _BYTES.items()})
     if mesh.has_vertex_scalar():
         columns["quality"] = mesh.vertex_scalar_array()
     return columns
@@ -132,9 +137,12 @@ def _write(
 def _is_all(old: ply.PlyMesh, new: ply.PlyMesh) -> bool:
     """Whether a mesh that was saved has no flags that are set, and no other data than `new`."""
     has_flags = any(records["flags"].any() for records in (old.vertices, old.faces))
-    return not has_flags and not len(old.edges) and _names(old, "flags") == _names(new, *NORMAL)
+    return not has_flags and not len(old.edges) and _contents(old) == _contents(new)
 
 
-def _names(mesh: ply.PlyMesh, *but: str) -> list[set[str]]:
-    """The columns of vertices and faces, but for some."""
-    return [set(records.dtype.names or ()) - {*but} for records in (mesh.vertices, mesh.faces)]
+def _contents(mesh: ply.PlyMesh) -> list[set[str]]:
+    """The columns of vertices and faces, but for normals, flags and how colours are written."""
+    contents = [set(records.dtype.names or ()) for records in (mesh.vertices, mesh.faces)]
+    if GREY in contents[0]:
+        contents[0] |= _BYTES.keys()
+    return [names - {*NORMAL, "flags", GREY} for names in contents]

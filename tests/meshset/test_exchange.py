@@ -277,6 +277,10 @@ ALONE = {
     "face selection": with_filter("compute_selection_by_condition_per_face", condselect="fi>99"),
     "edge selection": with_filter("compute_selection_crease_per_edge"),
     "vertex colours": with_filter("compute_color_by_function_per_vertex", x="vi/2"),
+    "white": with_filter("compute_color_by_function_per_vertex", x="255", y="255", z="255"),
+    "nearly white": with_filter(
+        "compute_color_by_function_per_vertex", x="255", y="255", z="255", a="vi == 7 ? 254 : 255"
+    ),
     "face colours": with_filter("compute_color_by_function_per_face", r="fi/3"),
     "vertex scalars": with_filter("compute_scalar_by_function_per_vertex", q="x*y"),
     "face scalars": with_filter("compute_scalar_by_function_per_face", q="fi/7"),

@@ -133,6 +133,8 @@ def take(ms: pymeshlab.MeshSet, late: Surface | None = None) -> MeshSnapshot:
     """
     native.forget_failures()
     mesh = ms.current_mesh()
+    # A mesh without a label has the name of its file as one.
+    identity = layers.identity_of(mesh)
     keys = attribute_keys(ms)
     with _copied(mesh) if late is None else _itself(ms) as (source, folder):
         path = folder / MESH_FILE
@@ -160,7 +162,7 @@ def take(ms: pymeshlab.MeshSet, late: Surface | None = None) -> MeshSnapshot:
         mesh.vertex_normal_matrix(),
         attributes,
         images,
-        layers.identity_of(mesh),
+        identity,
         unsupported,
     )
 

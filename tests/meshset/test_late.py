@@ -130,6 +130,15 @@ def test_a_mesh_that_cannot_be_saved_is_left_as_it_is(tmp_path, capfd, monkeypat
     assert noted_name(ms, capfd) == str(tmp_path / "plain.ply")
 
 
+def test_a_mesh_without_a_label_gets_none(tmp_path):
+    """PyMeshLab shows the name of the file for it."""
+    ms = pymeshlab.MeshSet()
+    ms.add_mesh(pymeshlab.Mesh(*meshes.bumpy_sphere(300)))
+    assert ms.apply_filter(FLIP)["flips"] > 0
+    ms.save_current_mesh(str(tmp_path / "mine.ply"))
+    assert ms.current_mesh().label() == "mine.ply"
+
+
 def test_held_meshes_and_other_layers_stay(tmp_path):
     ms = plain_set(tmp_path)
     ms.add_mesh(pymeshlab.Mesh(*meshes.tetrahedron()), "other")

@@ -200,7 +200,7 @@ def write_table(path: Path, source: str, jobs: Sequence[Job], results: Iterable[
 
 
 def _entry(result: Result, path: Path, page: Path | None) -> Entry:
-    from ..report.rows import meaningful
+    from ..report.examine import meaningful
     from ..report.table import Entry, link, percent
 
     before, after = result.before or {}, result.after or {}

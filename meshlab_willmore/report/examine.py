@@ -137,3 +137,8 @@ def _edges(faces: Faces) -> NDArray[np.int64]:
     # `np.unique` is far slower.
     sides = np.sort(side_numbers(faces))
     return sides[np.diff(sides, prepend=-1) > 0]
+
+
+def meaningful(value: float, scale: float = 1.0) -> float:
+    """The value, or 0 if rounding errors may be as large; `scale` is that of a mesh's lengths."""
+    return 0.0 if abs(value) < NOISE * scale else float(value)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .examine import NOISE, Examined
+from .examine import NOISE, Examined, meaningful
 
 Array = NDArray[np.float64]
 
@@ -129,9 +129,9 @@ def _median(kind: Quantity, values: Array) -> str:
     if not len(values):
         return "none"
     median = float(np.median(values))
-    if kind.values is not _log_energies and median < NOISE:
-        median = 0.0
-    return f"{10**median:.3g}" if kind.values is _log_energies else f"{median:.3g}{kind.unit}"
+    if kind.values is _log_energies:
+        return f"{10**median:.3g}"
+    return f"{meaningful(median):.3g}{kind.unit}"
 
 
 def _shares(kind: Quantity, values: Array) -> Array:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .examine import NOISE, Examined
+from .examine import NOISE, Examined, meaningful
 
 Array = NDArray[np.float64]
 
@@ -73,16 +73,12 @@ def _improved(before: Examined, after: Examined) -> Iterator[Place]:
     drop = before.energy - after.energy
     for v in _worst(after, drop, after.vertices):
         if drop[v] > NOISE:
-            energy = _without_noise(after.energy[v])
+            energy = meaningful(after.energy[v])
             yield _at_vertex(after, v, f"W {energy:.3g}", _was(before, v))
 
 
 def _was(before: Examined, v: int) -> str:
-    return f"was {_without_noise(before.energy[v]):.3g}"
-
-
-def _without_noise(energy: float) -> float:
-    return energy if energy > NOISE else 0.0
+    return f"was {meaningful(before.energy[v]):.3g}"
 
 
 def _folds(mesh: Examined) -> Iterator[Place]:

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator
 from html import escape
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..results import FlipResult
-from .examine import NOISE, Examined, between
+from .examine import NOISE, Examined, between, meaningful
+
+Value = Callable[[Examined], float | None]
 
 WORST_SHARE = 0.01
 PERCENT = 100.0
@@ -40,16 +43,22 @@ def rows(before: Examined, after: Examined, flips: int | None) -> list[Row]:
     flips leave them, it is said what is better.
     """
     is_judged = flips is not None and len(before.faces) == len(after.faces)
-    found = _rows(before, after, flips)
+    found = [*_rows(before, after, flips)]
     return found if is_judged else [row._replace(better=0) for row in found]
 
 
-def _rows(before: Examined, after: Examined, flips: int | None) -> list[Row]:
-    one, two = before.totals, after.totals
-    found = [
-        Row("Vertices", "", len(before.vertices), len(after.vertices)),
-        Row("Faces", "", len(before.faces), len(after.faces)),
-    ]
+def _rows(before: Examined, after: Examined, flips: int | None) -> Iterator[Row]:
+    def row(
+        name: str,
+        help: str,
+        value: Callable[[Examined], float | None],
+        unit: str = "",
+        better: int = 0,
+    ) -> Row:
+        return Row(name, help, value(before), value(after), unit, better)
+
+    yield row("Vertices", "", lambda mesh: len(mesh.vertices))
+    yield row("Faces", "", lambda mesh: len(mesh.faces))
     if flips is not None:
         edges = len(after.edges)
         share = f"{PERCENT * flips / max(edges, 1):.3g} % of {written(edges)}"
@@ -57,59 +66,40 @@ def _rows(before: Examined, after: Examined, flips: int | None) -> list[Row]:
             "Edges that the mesh before does not have. The flips made may be more: an edge can be "
             "flipped several times, and back."
         )
-        found.append(Row("Edges that differ", what, None, flips, note=share))
-        found.append(
-            Row(
-                "Normal change",
-                "Mean angle between the normals of the vertices before and after.",
-                None,
-                normal_change(before, after),
-                "°",
-            )
-        )
-    return [
-        *found,
-        Row(
-            "Willmore energy W",
-            "Sum over the vertices; 0 on spheres and planes.",
-            meaningful(one.willmore_energy),
-            meaningful(two.willmore_energy),
-            better=-1,
-        ),
-        Row("Area", "In squared units of the coordinates.", one.area, two.area),
-        Row(
-            "Absolute Gaussian curvature |K|",
-            "Sum over the vertices of how far the angles are from 360°, in radians.",
-            meaningful(one.absolute_gaussian_curvature),
-            meaningful(two.absolute_gaussian_curvature),
-            better=-1,
-        ),
-        Row(
-            "Absolute mean curvature M",
-            "Sum of dihedral angle times length over the edges.",
-            meaningful(one.absolute_mean_curvature, math.sqrt(one.area)),
-            meaningful(two.absolute_mean_curvature, math.sqrt(two.area)),
-            better=-1,
-        ),
-        Row("Mean shape", "1 is equilateral.", _mean(before), _mean(after), better=1),
-        Row(
-            "Shape of the worst 1 %",
-            "So many triangles have a lower shape.",
-            _worst_shape(before),
-            _worst_shape(after),
-            better=1,
-        ),
-        Row("Smallest angle", "", _least(before), _least(after), "°", better=1),
-        Row("Largest dihedral angle", "0° is flat.", _fold(before), _fold(after), "°", better=-1),
-        Row(
-            "Faces that cut or touch others",
-            "Counted exactly: faces with a point in common beside their common vertices and edges. "
-            "MeshLab's filter rounds and leaves out neighbours, and may count fewer.",
-            before.cuts,
-            after.cuts,
-            better=-1,
-        ),
-    ]
+        yield Row("Edges that differ", what, None, flips, note=share)
+        what = "Mean angle between the normals of the vertices before and after."
+        yield Row("Normal change", what, None, normal_change(before, after), "°")
+    yield row(
+        "Willmore energy W",
+        "Sum over the vertices; 0 on spheres and planes.",
+        lambda mesh: meaningful(mesh.totals.willmore_energy),
+        better=-1,
+    )
+    yield row("Area", "In squared units of the coordinates.", lambda mesh: mesh.totals.area)
+    yield row(
+        "Absolute Gaussian curvature |K|",
+        "Sum over the vertices of how far the angles are from 360°, in radians.",
+        lambda mesh: meaningful(mesh.totals.absolute_gaussian_curvature),
+        better=-1,
+    )
+    yield row(
+        "Absolute mean curvature M",
+        "Sum of dihedral angle times length over the edges.",
+        lambda mesh: meaningful(mesh.totals.absolute_mean_curvature, math.sqrt(mesh.totals.area)),
+        better=-1,
+    )
+    yield row("Mean shape", "1 is equilateral.", _mean, better=1)
+    what = "So many triangles have a lower shape."
+    yield row("Shape of the worst 1 %", what, _worst_shape, better=1)
+    yield row("Smallest angle", "", _least, "°", better=1)
+    yield row("Largest dihedral angle", "0° is flat.", _fold, "°", better=-1)
+    yield row(
+        "Faces that cut or touch others",
+        "Counted exactly: faces with a point in common beside their common vertices and edges. "
+        "MeshLab's filter rounds and leaves out neighbours, and may count fewer.",
+        lambda mesh: mesh.cuts,
+        better=-1,
+    )
 
 
 def normal_change(before: Examined, after: Examined) -> float:
@@ -117,11 +107,6 @@ def normal_change(before: Examined, after: Examined) -> float:
     used = before.valences > 0
     angles = between(before.normals[used], after.normals[used])
     return meaningful(float(np.nanmean(angles))) if np.isfinite(angles).any() else 0.0
-
-
-def meaningful(value: float, scale: float = 1.0) -> float:
-    """The value, or 0 if rounding errors may be as large; `scale` is that of a mesh's lengths."""
-    return 0.0 if abs(value) < NOISE * scale else float(value)
 
 
 def _mean(mesh: Examined) -> float | None:

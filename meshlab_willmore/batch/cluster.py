@@ -13,11 +13,11 @@ import os
 import socket
 import threading
 from collections.abc import Callable, Iterable, Iterator
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 from ..machine import core_count
 from ..messages import one_line
-from .pool import STARTING, PoolSettings, Seat
+from .pool import PoolSettings, Seat
 from .process import CRASH, ERROR, Ended, Task
 
 if TYPE_CHECKING:
@@ -42,7 +42,6 @@ class Cluster(Generic[Key]):
     def ended(
         self,
         tasks: Iterable[tuple[Key, Task]],
-        listen: Callable[[Key, Any], None] = lambda key, message: None,
         tick: Callable[[], object] | None = None,
     ) -> Iterator[tuple[Key, Ended]]:
         """As `Pool.ended`, but `tick` is never called.
@@ -74,10 +73,7 @@ class Cluster(Generic[Key]):
                 future = next(completed)
                 key, task, losses = running.pop(future)
                 if future.status == "finished":
-                    ended, messages = future.result()
-                    for message in messages:
-                        listen(key, message)
-                    yield key, ended
+                    yield key, future.result()
                 elif losses >= _LOSSES:
                     reason = f"the machine that did it was lost {losses} times"
                     yield key, Ended(CRASH, reason=reason, attempts=losses)
@@ -110,24 +106,17 @@ _free: dict[PoolSettings, list[Seat]] = {}
 _lock = threading.Lock()
 
 
-def attempt(task: Task, settings: PoolSettings) -> tuple[Ended, list[Any]]:
-    """Do a task in a process that stays alive for others; return its messages too."""
+def attempt(task: Task, settings: PoolSettings) -> Ended:
+    """Do a task in a process that stays alive for others."""
     host = socket.gethostname()
     if settings.folder is not None and not os.path.isdir(settings.folder):
         reason = f"{host} has no folder {settings.folder}; start the batch in one that all share"
-        return Ended(ERROR, reason=reason, of_machine=True, stops_all=True), []
-    messages: list[Any] = []
-
-    def listen(message: Any) -> None:
-        if message == STARTING:
-            messages.clear()
-        messages.append(message)
-
+        return Ended(ERROR, reason=reason, of_machine=True, stops_all=True)
     seat = _seat(settings)
-    ended = seat.attempt(task, listen)
+    ended = seat.attempt(task, lambda phase: None)
     with _lock:
         _free[settings].append(seat)
-    return ended._replace(host=host), messages
+    return ended._replace(host=host)
 
 
 def _seat(settings: PoolSettings) -> Seat:

@@ -18,7 +18,7 @@ from contextlib import suppress
 from pathlib import Path
 from queue import Empty, SimpleQueue
 from tempfile import gettempdir
-from typing import Any, Generic, NamedTuple, TypeVar
+from typing import Generic, NamedTuple, TypeVar
 
 from ..files import remove_drafts
 from .process import CRASH, DONE, ERROR, MEMORY, Ended, Phase, Task, WorkerProcess
@@ -27,8 +27,7 @@ Key = TypeVar("Key")
 
 # How many tasks a process does before another one takes its place.
 RENEWED_AFTER = 200
-# The message before each attempt.
-STARTING = Phase("starting")
+_STARTING = Phase("starting")
 # Numbers of the processes that this one has started.
 _numbers = itertools.count()
 # Between looks at Ctrl-C, which does not interrupt a wait on Windows.
@@ -94,13 +93,12 @@ class Seat:
         # Whether the process has done nothing but its warm-up, and whether it has done that.
         self._is_fresh = self._is_warm = False
 
-    def attempt(self, task: Task, listen: Callable[[Any], None]) -> Ended:
-        """Do a task, again where it fails and may; `Phase` messages begin each attempt."""
+    def attempt(self, task: Task, listen: Callable[[Phase], None]) -> Ended:
+        """Do a task, again where it fails and may; `listen` is called with its phases."""
         attempts = 0
         while True:
             worker, is_fresh = self.ready(), self._is_fresh
             self._is_fresh = False
-            listen(STARTING)
             ended = worker.do(task, listen)
             if ended.status not in (DONE, ERROR):
                 self._drop()
@@ -185,17 +183,15 @@ class Pool(Generic[Key]):
     def ended(
         self,
         tasks: Iterable[tuple[Key, Task]],
-        listen: Callable[[Key, Any], None] = lambda key, message: None,
         tick: Callable[[], object] = lambda: None,
     ) -> Iterator[tuple[Key, Ended]]:
         """Do tasks, each when a worker is free; give their keys with how they ended, as they end.
 
-        `listen` is called with keys and messages, in other threads, and `tick` about twice a second
-        while no task ends.
+        `tick` is called about twice a second while no task ends.
         """
         queue = iter(tasks)
         self._threads = [
-            threading.Thread(target=self._serve, args=(place, queue, listen), daemon=True)
+            threading.Thread(target=self._serve, args=(place, queue), daemon=True)
             for place in range(len(self._seats))
         ]
         for thread in self._threads:
@@ -224,12 +220,7 @@ class Pool(Generic[Key]):
                 if isinstance(result, tuple):
                     yield result
 
-    def _serve(
-        self,
-        place: int,
-        queue: Iterator[tuple[Key, Task]],
-        listen: Callable[[Key, Any], None],
-    ) -> None:
+    def _serve(self, place: int, queue: Iterator[tuple[Key, Task]]) -> None:
         seat = self._seats[place]
         try:
             while True:
@@ -239,7 +230,12 @@ class Pool(Generic[Key]):
                     break
                 key, task = following
                 self._start(place, seat)
-                self._results.put((key, seat.attempt(task, self._listener(place, key, listen))))
+
+                def listen(phase: Phase, key: Key = key) -> None:
+                    self.running[place] = (key, phase.name)
+
+                listen(_STARTING)
+                self._results.put((key, seat.attempt(task, listen)))
                 self.running.pop(place, None)
         except BaseException as error:
             self._results.put(error)
@@ -261,16 +257,6 @@ class Pool(Generic[Key]):
         else:
             seat.start()
             self._is_warm.wait()
-
-    def _listener(
-        self, place: int, key: Key, listen: Callable[[Key, Any], None]
-    ) -> Callable[[Any], None]:
-        def heard(message: Any) -> None:
-            if isinstance(message, Phase):
-                self.running[place] = (key, message.name)
-            listen(key, message)
-
-        return heard
 
     def close(self) -> None:
         """End all workers at once, and remove their files."""

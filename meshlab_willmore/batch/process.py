@@ -73,8 +73,9 @@ class Ended(NamedTuple):
     # Whether the machine is at fault, and whether all other tasks would fail in the same way.
     of_machine: bool = False
     stops_all: bool = False
-    # In which phase it failed.
+    # In which phase it failed; and the messages that were no phases.
     phase: str = ""
+    messages: tuple[Any, ...] = ()
     # The most bytes that the process had in memory meanwhile, and how long it took.
     memory: int | None = None
     seconds: float = 0.0
@@ -128,30 +129,34 @@ class WorkerProcess:
         """The number of the process, and of its group."""
         return self._process.pid
 
-    def do(self, task: Task, listen: Callable[[Any], None] = lambda message: None) -> Ended:
-        """Do a task; `listen` is called with its messages. Unless it is done, close the worker."""
+    def do(self, task: Task, listen: Callable[[Phase], None] = lambda phase: None) -> Ended:
+        """Do a task; `listen` is called with its phases. Unless it is done, close the worker."""
         start = time.monotonic()
-        return self._ended(task, listen)._replace(seconds=time.monotonic() - start)
-
-    def _ended(self, task: Task, listen: Callable[[Any], None]) -> Ended:
         self._phase, self._timed_out = "", None
+        messages: list[Any] = []
+        ended = self._ended(task, listen, messages)
+        seconds = time.monotonic() - start
+        return ended._replace(seconds=seconds, phase=self._phase, messages=tuple(messages))
+
+    def _ended(self, task: Task, listen: Callable[[Phase], None], messages: list[Any]) -> Ended:
         try:
             _write(_stream(self._process.stdin), task)
             while not isinstance(message := read(_stream(self._process.stdout)), Ended):
                 if message is BEGUN:
                     self._limit("task", task.seconds)
-                    continue
-                if isinstance(message, Phase):
+                elif isinstance(message, Phase):
                     self._phase = message.name
                     self._limit("phase", message.seconds)
-                listen(message)
+                    listen(message)
+                else:
+                    messages.append(message)
         except (OSError, EOFError, pickle.UnpicklingError, ValueError):
             return self._death()
         finally:
             self._limit("task", None)
             self._limit("phase", None)
         self.done += 1
-        return message._replace(phase=self._phase)
+        return message
 
     def kill(self) -> None:
         """End the process and its children at once; another thread may be waiting for an answer."""
@@ -201,17 +206,15 @@ class WorkerProcess:
         code = self._wait()
         if self._timed_out is not None:
             reason = f"not finished within {self._timed_out:.3g} s"
-            return Ended(TIMEOUT, reason=reason, phase=self._phase)
+            return Ended(TIMEOUT, reason=reason)
         if code >= 0:
-            return Ended(
-                CRASH, reason=f"the process ended with exit code {code}", phase=self._phase
-            )
+            return Ended(CRASH, reason=f"the process ended with exit code {code}")
         reason = f"crashed ({signal.Signals(-code).name})"
         if -code == signal.SIGKILL:
             reason = "the process was killed (SIGKILL), perhaps for lack of memory"
         elif self._memory is not None:
             reason += "; the memory limit may be the cause"
-        return Ended(CRASH, reason=reason, phase=self._phase)
+        return Ended(CRASH, reason=reason)
 
 
 def _allows_more(threads: int) -> bool:

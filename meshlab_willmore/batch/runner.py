@@ -8,7 +8,6 @@ import socket
 import threading
 import time
 import warnings
-from collections import defaultdict
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from contextlib import ExitStack, closing, suppress
 from pathlib import Path
@@ -25,8 +24,8 @@ from . import records
 from .cluster import Cluster
 from .jobs import Job, check_apart, plan, reports_of
 from .pages import write_table
-from .pool import RENEWED_AFTER, STARTING, Pool, PoolSettings, remove_stale
-from .process import CRASH, DONE, ERROR, MEMORY, TIMEOUT, Ended, Phase, Task
+from .pool import RENEWED_AFTER, Pool, PoolSettings, remove_stale
+from .process import CRASH, DONE, ERROR, MEMORY, TIMEOUT, Ended, Task
 from .recipe import Recipe, Script, described, recipe_of
 from .records import BAD_FILE, Records, Result
 from .resuming import divided
@@ -213,9 +212,8 @@ class Batch:
         self._pool: Pool[int] | None = None
         # The results that the table shows.
         self._shown = [*self.earlier]
-        # How many results were taken, and the messages of the workers by job.
+        # How many results were taken.
         self._done = 0
-        self._heard: dict[int, list[Any]] = defaultdict(list)
 
     @property
     def count(self) -> int:
@@ -284,15 +282,8 @@ class Batch:
                 yield self._result(key, ended)
         if not tasks:
             return
-
-        def listen(key: int, message: Any) -> None:
-            if message == STARTING:
-                self._heard[key].clear()
-            elif not isinstance(message, Phase):
-                self._heard[key].append(message)
-
         tick()
-        for key, ended in self._engine(len(tasks)).ended(tasks, listen, tick):
+        for key, ended in self._engine(len(tasks)).ended(tasks, tick):
             if ended.stops_all:
                 raise MachineError(ended.reason)
             yield self._result(key, ended)
@@ -320,7 +311,7 @@ class Batch:
         return Task(_WORK, work, self._options.timeout, folders)
 
     def _result(self, key: int, ended: Ended) -> Result:
-        (job, place, stamp), heard = self._left[key], self._heard.pop(key, [])
+        (job, place, stamp), heard = self._left[key], ended.messages
         made = ended.value if ended.status == DONE else Made()
         is_replaced = ended.status == DONE and job.is_in_place
         size, modified = records.stamp(job.sources) if is_replaced else stamp

@@ -12,7 +12,7 @@ from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..batch.pool import STARTING, PoolSettings, Seat
+from ..batch.pool import PoolSettings, Seat
 from ..batch.process import DONE, TIMEOUT, Phase, Task
 from ..machine import core_count
 from ..mesh_files import loading
@@ -76,14 +76,9 @@ def run(
     comparison: Comparison, row: Row, notify: Callable[[str], None], page: Path | None = None
 ) -> Outcome:
     """Compute one row in a process of its own; `notify` is called with each phase that begins."""
-
-    def listen(message: Any) -> None:
-        if message != STARTING:
-            notify(message.name)
-
     task = Task(_COMPUTE, Computation(comparison, row, page))
     with closing(Seat(PoolSettings(threads=core_count()))) as seat:
-        ended = seat.attempt(task, listen)
+        ended = seat.attempt(task, lambda phase: notify(phase.name))
     if ended.status == DONE:
         outcome: Outcome = ended.value
         return outcome

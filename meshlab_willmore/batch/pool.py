@@ -174,12 +174,6 @@ class Pool(Generic[Key]):
         self._threads: list[threading.Thread] = []
         self._lock = threading.Lock()
 
-    def __enter__(self) -> Pool[Key]:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
-
     def ended(
         self,
         tasks: Iterable[tuple[Key, Task]],

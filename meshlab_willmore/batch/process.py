@@ -124,11 +124,6 @@ class WorkerProcess:
         with suppress(BrokenPipeError):
             _write(_stream(self._process.stdin), (mark, memory))
 
-    @property
-    def pid(self) -> int:
-        """The number of the process, and of its group."""
-        return self._process.pid
-
     def do(self, task: Task, listen: Callable[[Phase], None] = lambda phase: None) -> Ended:
         """Do a task; `listen` is called with its phases. Unless it is done, close the worker."""
         start = time.monotonic()

@@ -75,7 +75,7 @@ class Work(NamedTuple):
 
 
 class Made(NamedTuple):
-    """What `run_job` returns: outputs, what steps returned, how many ran, and measures."""
+    """What `run_job` returns: fields of a `Result`."""
 
     outputs: tuple[Saved, ...] = ()
     returned: tuple[StepResult, ...] = ()

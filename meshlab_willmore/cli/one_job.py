@@ -63,12 +63,4 @@ def _run(recipe: Recipe, job: Job, force: bool) -> Result:
 
         with progress.with_details(status) if recipe.must_be_measured else nullcontext():
             made = work.run_job(work.Work(job, recipe, force), say, around)
-    return Result(
-        job.name,
-        DONE,
-        outputs=made.outputs,
-        seconds=time.perf_counter() - start,
-        steps=made.steps,
-        returned=made.returned,
-        before=made.before,
-    )
+    return Result(job.name, DONE, seconds=time.perf_counter() - start, **made._asdict())

@@ -4,6 +4,7 @@ import os
 import sys
 import threading
 import time
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -23,7 +24,7 @@ def task(name, argument=None, seconds=None):
 
 def ended(tasks, settings):
     """How each task ended, by its place."""
-    with Pool(settings) as pool:
+    with closing(Pool(settings)) as pool:
         return dict(pool.ended(enumerate(tasks)))
 
 

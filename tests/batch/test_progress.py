@@ -2,6 +2,7 @@
 
 import json
 import time
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -124,7 +125,7 @@ def test_progress_must_be_callable(inputs):
 
 
 def test_what_has_ended_but_was_not_taken_is_left_over():
-    with Pool(PoolSettings()) as pool:
+    with closing(Pool(PoolSettings())) as pool:
         tasks = ((key, Task("tests.batch.tasks:give", key)) for key in range(3))
         ended = pool.ended(tasks)
         next(ended)

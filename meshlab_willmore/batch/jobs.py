@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -49,6 +49,12 @@ class Job(NamedTuple):
         materials = (path.with_name(f"{path.name}.mtl") for path in outputs)
         pages = [] if self.page is None else [self.page]
         return (*self.sources, *outputs, *materials, *pages)
+
+    @property
+    def uses(self) -> Iterator[tuple[Path | None, str]]:
+        """The files that are written, and what messages call them."""
+        yield from ((output.path, f"the output of {self.name}") for output in self.outputs)
+        yield self.page, f"the page of {self.name}"
 
     @property
     def is_in_place(self) -> bool:
@@ -254,25 +260,17 @@ def _check_distinct(jobs: Sequence[Job], inputs: Iterable[Path]) -> None:
             writers[key] = job
 
 
-def check_apart(own: Mapping[str, Path | None], jobs: Iterable[Job]) -> None:
-    """Raise `WrongUse` if files of the batch itself have the name of another file of the run.
-
-    Parameters
-    ----------
-    own : mapping of str to Path or None
-        These files by what they are, such as "the table".
-    """
-    uses: dict[str, str] = {}
-    for job in jobs:
-        uses |= {_identity(output.path): f"the output of {job.name}" for output in job.outputs}
-        if job.page is not None:
-            uses[_identity(job.page)] = f"the page of {job.name}"
-    for what, path in own.items():
+def check_apart(
+    uses: Iterable[tuple[Path | None, str]], cure: str = "use another name for one"
+) -> None:
+    """Raise `WrongUse` if a file has two uses; streams and None can have many."""
+    known: dict[str, str] = {}
+    for path, use in uses:
         if path is None or is_stream(path):
             continue
-        use = uses.setdefault(_identity(path), what)
-        if use != what:
-            raise WrongUse(f"{path} would be both {what} and {use}; use another name for one")
+        other = known.setdefault(_identity(path), use)
+        if other != use:
+            raise WrongUse(f"{path} would be both {use} and {other}; {cure}")
 
 
 def _project_key(file: Path) -> str:

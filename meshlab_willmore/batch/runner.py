@@ -181,7 +181,8 @@ def run(
         renewed_after=renewed_after,
         table=table,
     )
-    check_apart({"the table of the report": table, "the log": options.log}, jobs)
+    own = [(table, "the table of the report"), (options.log, "the log")]
+    check_apart([*(use for job in jobs for use in job.uses), *own])
     with closing(Batch(recipe, jobs, options)) as batch:
         yield from batch.results(listener)
 

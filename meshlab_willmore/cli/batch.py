@@ -117,13 +117,11 @@ class Plan(NamedTuple):
     jobs: list[Job]
     table: Path | None
 
-    def own_files(self) -> dict[str, Path | None]:
-        """The files of the batch itself, by what they are; the standard output is none."""
+    def own_files(self) -> list[tuple[Path | None, str]]:
+        """The files of the batch itself, and what they are; the standard output is none."""
         records = _records_file()
-        return {
-            "the table of --report": self.table,
-            "the records of --json": None if records == STANDARD_OUTPUT else records,
-        }
+        file = None if records == STANDARD_OUTPUT else records
+        return [(self.table, "the table of --report"), (file, "the records of --json")]
 
 
 def _is_resumed() -> bool:
@@ -153,7 +151,7 @@ def planned(
         inputs, outputs, layers, force, shard, reports.page, not dry_run, is_continued=_is_resumed()
     )
     found = Plan(jobs, reports.table)
-    check_apart(found.own_files(), jobs)
+    check_apart([*(use for job in jobs for use in job.uses), *found.own_files()])
     return found
 
 

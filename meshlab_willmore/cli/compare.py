@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import re
 import threading
 from collections.abc import Callable, Sequence
@@ -15,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from .. import numba_settings
-from ..batch.jobs import Reports
+from ..batch.jobs import Reports, check_apart
 from ..batch.steplog import for_json
 from ..files import write
 from ..mesh_files.paths import check_place, only_input
@@ -206,20 +205,16 @@ def _pages_of(
 ) -> list[Path | None]:
     """The pages of the rows; raises `WrongUse` if one can't be written, or has another's name."""
     found: list[Path | None] = []
-    uses = {} if reports.table is None else {os.path.realpath(reports.table): "the table"}
+    uses = [(reports.table, "the table")]
     for number, row in enumerate(rows):
         page = None
         if reports.page is not None and row.filter:
             name = re.sub(r"\W+", "-", row.name).strip("-")
             page = reports.page.of(source.with_name(name + source.suffix), number).path
             check_place(page, force, "{name}.html")
-            use = uses.setdefault(os.path.realpath(page), f"the page of {row.name}")
-            if use != f"the page of {row.name}":
-                raise WrongUse(
-                    f"{page} would be both {use} and the page of {row.name}; use another name, "
-                    "with {name} for pages"
-                )
         found.append(page)
+        uses.append((page, f"the page of {row.name}"))
+    check_apart(reversed(uses), "use another name, with {name} for pages")
     return found
 
 

@@ -214,7 +214,7 @@ def command(
     outputs = [output._replace(is_text=as_text, is_single=single) for output in outputs]
     plan = planned(find_inputs(inputs, takes_projects=True), outputs, layers, force, dry_run)
     used = [Path(name)] if source else []
-    used += [file for file in plan.own_files().values() if file and not is_stream(file)]
+    used += [file for file, _ in plan.own_files() if file and not is_stream(file)]
     runlog.check(log_file, [*used, *(file for job in plan.jobs for file in job.files)])
     with runlog.opened(None if dry_run else log_file, name):
         run_jobs(recipe, plan, partial(_line, recipe), force, has_script=True)

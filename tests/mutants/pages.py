@@ -48,7 +48,7 @@ FAULTS = [
     Fault(
         "a table replaces a page or the records",
         "batch/jobs.py",
-        "        if use != what:",
+        "        if other != use:",
         "        if False:",
         "tests/cli/test_reports.py",
     ),

@@ -21,16 +21,19 @@ class WorkerHere:
 
     one_at_a_time = threading.Lock()
 
-    def __init__(self, settings):
-        self.done, self.mark = 0, settings.mark
+    def __init__(self, mark, *_):
+        self.done, self.mark = 0, mark
 
-    def do(self, task, listen=lambda message: None):
-        task, phase = sent(task), ""
+    def do(self, task, listen=lambda phase: None):
+        task, phase, messages = sent(task), "", []
 
         def hear(message):
             nonlocal phase
-            phase = message.name if isinstance(message, Phase) else phase
-            listen(sent(message))
+            if isinstance(message, Phase):
+                phase = message.name
+                listen(sent(message))
+            else:
+                messages.append(sent(message))
 
         module, _, name = task.function.partition(":")
         try:
@@ -38,10 +41,11 @@ class WorkerHere:
             # What PyMeshLab prints is muted for all threads at once.
             with self.one_at_a_time:
                 value = sent(function(task.argument, hear))
+            self.done += 1
+            ended = Ended(DONE, value, memory=memory.peak())
         except Exception as error:
-            return sent(worker._failed(error, None))._replace(phase=phase)
-        self.done += 1
-        return Ended(DONE, value, phase=phase, memory=memory.peak())
+            ended = sent(worker._failed(error, None))
+        return ended._replace(phase=phase, messages=tuple(messages))
 
     def kill(self):
         """Nothing is left to end."""

@@ -119,14 +119,9 @@ def _line(found: Fault | ScriptWarning) -> str:
 
 
 class ScriptError(ValueError):
-    """A filter script that can't be read or run, with all its faults.
+    """A filter script that can't be read or run, with all its `faults`.
 
-    Attributes
-    ----------
-    source : str
-        The file, or another name of the script.
-    faults : tuple of Fault
-        At least one.
+    There is at least one. The `source` is the file, or another name of the script.
     """
 
     def __init__(self, source: str, faults: Iterable[Fault]) -> None:

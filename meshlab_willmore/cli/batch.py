@@ -1,4 +1,4 @@
-"""The jobs of `run`, `flip` and `measure`: the options of a batch, and what is printed."""
+"""The jobs of `run`, `flip` and `measure`: options of batches and reports, and what is printed."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from ..batch.jobs import Job, Reports, check_apart, plan
-from ..batch.shards import shard_of
+from ..batch.jobs import Job, Reports, check_apart, plan, reports_of
+from ..batch.shards import Shard, shard_of
 from ..batch.steplog import log
 from ..batch.summary import Summary, duration, failure
 from ..files import STANDARD_OUTPUT
 from ..messages import WrongUse, note
 from . import progress
 from .arguments import kept_option, kept_options
+from .completion import files
 from .errors import is_debug
 from .one_job import run_here
-from .reports import check_reports
 from .scripts import STANDARD_STREAM
 from .text import how_many_failed, in_window, printable
 
@@ -37,6 +37,8 @@ _UNITS = {"": 0, "K": 1, "M": 2, "G": 3, "T": 4}
 _KIB = 1024
 # The ending of files of records.
 RECORDS = ".jsonl"
+# The endings of report pages.
+_PAGES = (".html", ".htm")
 # Between looks at what workers do.
 _SECONDS = 0.5
 
@@ -102,6 +104,16 @@ json_file_option = kept_option(
     help="Write a line of JSON for each mesh as it ends: outcome, time, memory, measures. - prints "
     "these lines, and no others.",
 )
+report_option = kept_option(
+    "--report",
+    "reports",
+    multiple=True,
+    metavar="PAGE.html",
+    shell_complete=files,
+    help="Write a page for a browser: before and after in 3D and in numbers. For several meshes it "
+    "is a table; with a placeholder, as in 'pages/{name}.html', each mesh has a page. Can be given "
+    "twice, for both.",
+)
 
 
 def batch_options(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -133,6 +145,17 @@ def _records_file() -> Path | None:
     """The file of ``--json``, which may be the standard output."""
     file = kept_options().get("log")
     return STANDARD_OUTPUT if str(file) == STANDARD_STREAM else file
+
+
+def check_reports(
+    is_several: bool, force: bool, shard: Shard | None = None, is_continued: bool = False
+) -> Reports:
+    """The pages that were asked for; see `meshlab_willmore.batch.jobs.reports_of`."""
+    names = kept_options().get("reports", ())
+    for name in names:
+        if not name.lower().endswith(_PAGES):
+            raise WrongUse(f"--report {name}: a page needs a name such as report.html")
+    return reports_of(names, is_several, force, shard, is_continued)
 
 
 def planned(

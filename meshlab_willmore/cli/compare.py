@@ -29,10 +29,10 @@ from .arguments import (
     hyphened,
     json_option,
 )
+from .batch import check_reports, report_option
 from .compare_row import Comparison, Outcome, check_reference
 from .completion import files
 from .errors import debug_option, is_debug
-from .reports import check_reports, report_option
 from .text import wrapped_table
 
 if TYPE_CHECKING:

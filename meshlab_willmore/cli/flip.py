@@ -18,11 +18,10 @@ from .arguments import (
     mask_option,
     overruled_defaults,
 )
-from .batch import batch_options, json_file_option, planned, run_jobs
+from .batch import batch_options, json_file_option, planned, report_option, run_jobs
 from .completion import files
 from .errors import debug_option
 from .progress import verbose_option
-from .reports import report_option
 from .text import flip_results, printable
 
 if TYPE_CHECKING:

@@ -14,11 +14,10 @@ from ..mesh_files.paths import PLACEHOLDERS, Output, find_inputs
 from ..messages import WrongUse, counted
 from . import runlog
 from .arguments import LAYER_HELP, force_option, form_options, mask_option, take_outputs
-from .batch import batch_options, json_file_option, planned, run_jobs
+from .batch import batch_options, json_file_option, planned, report_option, run_jobs
 from .completion import files, scripts
 from .errors import debug_option
 from .progress import verbose_option
-from .reports import report_option
 from .scripts import Script, read_script
 from .text import printable, saved_text, step_results
 

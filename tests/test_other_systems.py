@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import call, cube_file
+from tests.workers import workers_here  # noqa: F401
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="it is tried on Linux")
 
@@ -37,8 +38,9 @@ import sys
 import numba, pymeshlab
 sys.platform = "freebsd14"
 from meshlab_willmore.cli import main
-main(prog_name="meshlab-willmore")
 """
+ONE = PROGRAM + 'main(prog_name="meshlab-willmore")'
+SEVERAL = PROGRAM + "import json; [main(w, standalone_mode=False) for w in json.loads(sys.argv[1])]"
 
 
 @pytest.fixture
@@ -51,9 +53,9 @@ def run(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path / "work")
     path = os.pathsep.join([str(folder), *filter(None, sys.path)])
 
-    def command(*arguments):
+    def command(*arguments, program=ONE):
         return subprocess.run(
-            [sys.executable, "-c", PROGRAM, *map(str, arguments)],
+            [sys.executable, "-c", program, *map(str, arguments)],
             env={**os.environ, "PYTHONPATH": path},
             capture_output=True,
             text=True,
@@ -67,13 +69,18 @@ def run(tmp_path, monkeypatch):
 @pytest.mark.slow
 def test_modules_and_commands_do_without(run):
     cube_file("cube.ply")
-    done = run("flip", "cube.ply", "out.ply")
-    assert (done.stderr, done.returncode) == ("", 0)
-    assert "6 flips" in done.stdout
-    done = run("run", "flip.mlx", "-i", "cube.ply", "-o", "script.ply", "--log", "log.txt")
-    assert done.returncode == 0, done.stderr
-    done = run("measure", "cube.ply", "--json")
-    assert json.loads(done.stdout)[0]["faces"] == 24
+    commands = [
+        ["flip", "cube.ply", "out.ply"],
+        ["run", "flip.mlx", "-i", "cube.ply", "-o", "script.ply", "--log", "log.txt"],
+        ["measure", "cube.ply", "--json"],
+    ]
+    done = run(json.dumps(commands), program=SEVERAL)
+    note = "Note: flip.mlx is the script that comes with meshlab_willmore\n"
+    assert (done.stderr, done.returncode) == (note, 0)
+    flipped, ran, *_ = done.stdout.splitlines()
+    assert flipped.startswith("cube.ply -> out.ply: 6 flips")
+    assert ran.startswith("cube.ply -> script.ply ")
+    assert json.loads("[" + done.stdout.partition("\n[")[2])[0]["faces"] == 24
 
 
 @pytest.mark.slow
@@ -91,6 +98,7 @@ def test_batch_with_a_limit_of_time(run):
     assert "not finished within 0.001 s" in late.stderr
 
 
+@pytest.mark.usefixtures("workers_here")
 @pytest.mark.slow
 def test_a_limit_of_memory_without_effect_is_noted(run):
     cube_file("cube.ply")

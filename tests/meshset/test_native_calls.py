@@ -197,7 +197,7 @@ def step(both):
 
 @pytest.mark.parametrize(
     "seed",
-    [*range(10), *(pytest.param(seed, marks=pytest.mark.nightly) for seed in range(10, 25))],
+    [*range(6), *(pytest.param(seed, marks=pytest.mark.nightly) for seed in range(6, 25))],
 )
 @pytest.mark.slow
 def test_ids_lead_to_the_same_meshes_as_in_a_set_without_flips(seed):

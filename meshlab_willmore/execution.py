@@ -62,15 +62,15 @@ class Search(NamedTuple):
 
 SEARCHES = {
     "parallel greedy": Search(parallel_greedy.run, NO_FLIP),
-    "greedy": Search(greedy.run, NO_FLIP, work=8.0),
-    "variable depth": Search(variable_depth.run, NO_CHAIN, warm_starts=("delaunay",), work=300.0),
-    "annealing": Search(annealing.run, NO_FLIP, is_random=True, work=20.0, work_per_sweep=3.0),
+    "greedy": Search(greedy.run, NO_FLIP, work=4.0),
+    "variable depth": Search(variable_depth.run, NO_CHAIN, warm_starts=("delaunay",), work=100.0),
+    "annealing": Search(annealing.run, NO_FLIP, is_random=True, work=9.0, work_per_sweep=1.5),
     "thorough": Search(
         multistart.run, NO_CHAIN, warm_starts=("delaunay", "mean curvature"), work=300.0
     ),
 }
 # What the guard against intersections adds to it, and the part of it that a pass at folds takes.
-GUARD, AT_FOLDS = 2.0, 0.002
+GUARD, AT_FOLDS = 3.0, 0.002
 # The share in the time of a pass in which the guard is built.
 BUILDING = 0.15
 # The share of the passes in the time of all, where they may have to be made again.

@@ -35,7 +35,7 @@ from .search.rules import NO_LIMIT
 
 _log = logging.getLogger(__name__)
 # About how long the work before and after the passes takes; one by "parallel greedy" takes 1.
-BEFORE, AFTER = 0.5, 0.15
+BEFORE, AFTER = 0.3, 0.1
 
 
 class _Locks(NamedTuple):
@@ -225,7 +225,7 @@ def optimize_flips(
     progress : callable, optional
         Called with the fraction of the work that is done and a text: at the beginning, then at most
         ten times a second, and last with exactly 1. The fraction never falls. On scans it differs
-        from the part of the time by 2 to 11 % of the whole in the mean, and by 24 % at most; where
+        from the part of the time by 5 to 15 % of the whole in the mean, and by 36 % at most; where
         there is little to flip, the end comes sooner. If the callable returns False, or raises an
         exception, the run stops; other values mean nothing. In the last call there is nothing left
         to stop.

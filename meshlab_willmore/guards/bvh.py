@@ -1,11 +1,12 @@
 """Bounding volume hierarchy over the faces of a mesh, kept up to date while edges are flipped.
 
 A perfect binary tree of axis-aligned boxes in an array, node p above 2 p + 1 and 2 p + 2. It is
-built once: faces are halved at the median of their box centres along the longest axis, down to
-leaves of a few faces, which all have the same number of faces, or one more. A flip changes two
-faces within the outline of their quad, and faces keep their leaves. So only the boxes from these
-two leaves up to the first unchanged one are computed again, or expanded to hold the quad: all
-arrays keep their size, and one huge face, or points on a line, do no harm. Queries need no stack.
+built once: all faces, then each part of them, are sorted along the axis on which their box centres
+lie farthest apart, and cut into equal parts, down to leaves of a few faces, which all have the
+same number of faces, or one more. A flip changes two faces within the outline of their quad, and
+faces keep their leaves. So only the boxes from these two leaves up to the first unchanged one are
+computed again, or expanded to hold the quad: all arrays keep their size, and one huge face, or
+points on a line, do no harm. Queries need no stack.
 """
 
 from typing import NamedTuple
@@ -15,14 +16,16 @@ from numba import types
 from numba.extending import overload
 
 from ..mesh.halfedge import NONE, Mesh, diamond
-from ..mesh.jit import allocating_jit, at, inner, jit
+from ..mesh.jit import at, inlined, inner, jit
 from ..mesh.parallel import thread_pool
 
 # Faces in a leaf: half as many up to as many. More cost more tests, fewer cost memory.
-LEAF_FACES = 4
-# Subtrees that are built in parallel.
-BLOCKS = 16
+LEAF_FACES = 8
+# Most levels of the tree that one sort is for, and blocks of faces that are sorted in parallel.
+LEVELS, BLOCKS = 4, 16
 BOUNDS = 6
+# A place along an axis, in steps, above the number of a face.
+STEPS, NUMBER_BITS, LOW_BITS = 2.0**32 - 1, np.uint64(32), np.uint64(2**32 - 1)
 
 
 class Bvh(NamedTuple):
@@ -42,8 +45,6 @@ class Bvh(NamedTuple):
         Leaf of each face, 0 .. b - 1.
     changed : (m,) int32
         The round of flips in which each face last changed, for searches that make rounds; else 0.
-    changed_below : (2 b - 1,) int32
-        The last of these rounds among the faces below each node.
     """
 
     active: bool
@@ -52,7 +53,6 @@ class Bvh(NamedTuple):
     order: np.ndarray
     leaf: np.ndarray
     changed: np.ndarray
-    changed_below: np.ndarray
 
 
 class NoBvh(NamedTuple):
@@ -74,7 +74,7 @@ class NoBvh(NamedTuple):
 def inactive_bvh():
     """Return an inactive BVH, for kernels that are compiled for both cases."""
     empty = np.empty(0, np.int32)
-    return Bvh(False, 1.0, np.empty((0, BOUNDS)), empty, empty, empty, empty)
+    return Bvh(False, 1.0, np.empty((0, BOUNDS)), empty, empty, empty)
 
 
 def specialized(bvh):
@@ -108,134 +108,103 @@ def build_bvh(mesh, exponent=0):
         leaves *= 2
     with np.errstate(over="ignore", under="ignore"):
         area_scale = float(np.ldexp(1.0, 2 * exponent))
-    nodes = 2 * leaves - 1
-    bvh = Bvh(
-        True,
-        area_scale,
-        np.empty((nodes, BOUNDS)),
-        _leaf_order(mesh, leaves),
-        np.empty(faces, np.int32),
-        np.zeros(faces, np.int32),
-        np.zeros(nodes, np.int32),
-    )
     with thread_pool() as parallel_for:
+        order = _leaf_order(mesh, leaves, parallel_for)
+        box, changed = np.empty((2 * leaves - 1, BOUNDS)), np.zeros(faces, np.int32)
+        bvh = Bvh(True, area_scale, box, order, np.empty(faces, np.int32), changed)
         parallel_for(_fill_leaves, _Refit(mesh, bvh), leaves)
-    _refit_inner_nodes(bvh)
+    _refit_inner_nodes(box)
     return bvh
 
 
-class _Build(NamedTuple):
+class _Sort(NamedTuple):
     """Faces that are being sorted into leaves.
 
     Attributes
     ----------
-    order : (m,) int32
-        The faces, changed in place.
     centres : (3, m) float64
         Centres of their boxes, twice as large.
+    keys : (m,) uint64
+        The faces part by part, each number in the low 32 bits; above it what to sort by.
     leaves, width : int
-        The number of all leaves, and of those in a block.
+        The number of all leaves, and of those in a part.
     """
 
-    order: np.ndarray
     centres: np.ndarray
+    keys: np.ndarray
     leaves: int
     width: int
 
 
-def _leaf_order(mesh, leaves):
+def _leaf_order(mesh, leaves, parallel_for):
     """Return the faces leaf by leaf (m,) int32; `leaves` is a power of two."""
-    order = np.arange(len(mesh.origin) // 3, dtype=np.int32)
-    blocks = min(leaves, BLOCKS)
-    state = _Build(order, _centres(mesh), leaves, leaves // blocks)
-    _split(state, 0, leaves, leaves // blocks)
-    with thread_pool() as parallel_for:
-        parallel_for(_split_blocks, state, blocks, chunk=1)
-    return order
+    faces, levels = len(mesh.origin) // 3, leaves.bit_length() - 1
+    centres, keys = np.empty((3, faces)), np.arange(faces, dtype=np.uint64)
+    parallel_for(_find_centres, (mesh.vertices, mesh.origin, centres), faces)
+    rounds = -(-levels // LEVELS)
+    for left in range(rounds, 0, -1):
+        width = 1 << levels * left // rounds
+        state, parts = _Sort(centres, keys, leaves, width), leaves // width
+        chunk = -(-parts // BLOCKS)
+        parallel_for(_write_keys, state, parts, chunk)
+        parallel_for(_sort_parts, state, parts, chunk)
+    return keys.astype(np.uint32).view(np.int32)
 
 
-@allocating_jit
-def _centres(mesh):
-    """Return the centres of the boxes of all faces, twice as large (3, m)."""
-    centres = np.empty((3, len(mesh.origin) // 3))
-    for f in range(centres.shape[1]):
-        first = 3 * f
-        u, v, w = mesh.origin[at(first)], mesh.origin[at(first + 1)], mesh.origin[at(first + 2)]
+@jit
+def _find_centres(task, start, stop):
+    """Write the centres of the boxes of the faces from `start` up to `stop`, twice as large."""
+    vertices, origin, centres = task
+    for f in range(start, stop):
+        u, v, w = at(origin[at(3 * f)]), at(origin[at(3 * f + 1)]), at(origin[at(3 * f + 2)])
         for axis in range(3):
-            a = mesh.vertices[at(u), at(axis)]
-            b, c = mesh.vertices[at(v), at(axis)], mesh.vertices[at(w), at(axis)]
+            a, b, c = vertices[u, at(axis)], vertices[v, at(axis)], vertices[w, at(axis)]
             centres[at(axis), at(f)] = min(a, b, c) + max(a, b, c)
-    return centres
 
 
 @jit
-def _split_blocks(state, start, stop):
-    """Sort the faces of each of the blocks from `start` up to `stop` by themselves."""
-    for block in range(start, stop):
-        first = block * state.width
-        _split(state, first, first + state.width, 1)
+def _write_keys(state, first_part, last_part):
+    """Write what to sort the faces of some parts by: their place along the longest axis."""
+    faces = len(state.keys)
+    for part in range(first_part, last_part):
+        start = _leaf_start(part * state.width, faces, state.leaves)
+        stop = _leaf_start((part + 1) * state.width, faces, state.leaves)
+        axis, low, extent = _longest_axis(state.centres, state.keys, start, stop)
+        for place in range(start, stop):
+            f = state.keys[at(place)] & LOW_BITS
+            along = (state.centres[at(axis), f] - low) / extent
+            state.keys[at(place)] = np.uint64(along * STEPS) << NUMBER_BITS | f
 
 
-@jit
-def _split(state, first, last, least):
-    """Halve the faces of the leaves `first` up to `last`, again and again, down to `least`."""
-    order, faces, leaves = state.order, len(state.order), state.leaves
-    width = last - first
-    while width > least:
-        for leaf in range(first, last, width):
-            start = _leaf_start(leaf, faces, leaves)
-            middle = _leaf_start(leaf + width // 2, faces, leaves)
-            stop = _leaf_start(leaf + width, faces, leaves)
-            axis = _longest_axis(order, state.centres, start, stop)
-            _quickselect(order, state.centres[axis], start, stop - 1, middle)
-        width //= 2
+def _sort_parts(state, first_part, last_part):
+    """Sort each of these parts by itself. No two keys are equal, so that all sorts agree."""
+    faces = len(state.keys)
+    for part in range(first_part, last_part):
+        start = _leaf_start(part * state.width, faces, state.leaves)
+        state.keys[start : _leaf_start((part + 1) * state.width, faces, state.leaves)].sort()
 
 
-@inner
+@inlined
+def _longest_axis(centres, keys, start, stop):
+    """Return on which axis the centres of some faces lie farthest apart, from where, and how far.
+
+    1 where they coincide.
+    """
+    axis, low, extent = 0, 0.0, -1.0
+    for other in range(3):
+        least, most = np.inf, -np.inf
+        for place in range(start, stop):
+            centre = centres[at(other), keys[at(place)] & LOW_BITS]
+            least, most = min(least, centre), max(most, centre)
+        if most - least > extent:
+            axis, low, extent = other, least, most - least
+    return axis, low, extent if extent > 0.0 else 1.0
+
+
+@inlined
 def _leaf_start(leaf, faces, leaves):
     """Return the first place of a leaf in the order; all leaves are the same size, or one more."""
-    return np.int64(leaf) * faces // leaves
-
-
-@inner
-def _longest_axis(order, centres, start, stop):
-    """Return the axis along which the centres of some faces lie farthest apart."""
-    longest, best = -1.0, 0
-    for axis in range(3):
-        along = centres[axis]
-        least = most = along[order[start]]
-        for place in range(start + 1, stop):
-            centre = along[at(order[at(place)])]
-            least, most = min(least, centre), max(most, centre)
-        if most - least > longest:
-            longest, best = most - least, axis
-    return best
-
-
-@inner
-def _quickselect(order, keys, first, last, middle):
-    """Reorder the places `first` .. `last`, so that no key before `middle` is above one after it.
-
-    C. A. R. Hoare, "Algorithm 65: Find", 1961.
-    """
-    while first < last:
-        pivot = keys[order[(first + last) // 2]]
-        i, j = first, last
-        while i <= j:
-            while keys[at(order[at(i)])] < pivot:
-                i += 1
-            while keys[at(order[at(j)])] > pivot:
-                j -= 1
-            if i <= j:
-                order[at(i)], order[at(j)] = order[at(j)], order[at(i)]
-                i += 1
-                j -= 1
-        if middle <= j:
-            last = j
-        elif middle >= i:
-            first = i
-        else:
-            return
+    return leaf * faces // leaves
 
 
 # --- update --------------------------------------------------------------------------------------
@@ -252,85 +221,84 @@ def refitted(bvh, mesh):
     """Return the BVH of a mesh that flips have made of the one that `bvh` belongs to."""
     if isinstance(bvh, NoBvh):
         return bvh
-    other = bvh._replace(
-        box=np.empty_like(bvh.box),
-        changed=np.zeros_like(bvh.changed),
-        changed_below=np.zeros_like(bvh.changed_below),
-    )
+    other = bvh._replace(box=np.empty_like(bvh.box), changed=np.zeros_like(bvh.changed))
     _fill_leaves(_Refit(mesh, other), 0, (len(other.box) + 1) // 2)
-    _refit_inner_nodes(other)
+    _refit_inner_nodes(other.box)
     return other
 
 
 @jit
 def _fill_leaves(task, first, last):
     """Write which faces the leaves from `first` up to `last` have, and their boxes."""
-    bvh, leaves = task.bvh, (len(task.bvh.box) + 1) // 2
+    bvh, mesh, first_leaf = task.bvh, task.mesh, len(task.bvh.box) // 2
     for leaf in range(first, last):
-        stop = _leaf_start(leaf + 1, len(bvh.order), leaves)
-        for place in range(_leaf_start(leaf, len(bvh.order), leaves), stop):
-            bvh.leaf[bvh.order[place]] = leaf
-        _refit_leaf(task.mesh, bvh, leaf)
+        start, stop = leaf_range(bvh.box, len(bvh.order), first_leaf + leaf)
+        for place in range(start, stop):
+            bvh.leaf[at(bvh.order[at(place)])] = leaf
+        box = _box_of_leaf(mesh.vertices, mesh.origin, bvh.order, start, stop)
+        _set_box(bvh.box, first_leaf + leaf, box)
 
 
 @jit
-def _refit_inner_nodes(bvh):
-    for node in range(len(bvh.box) // 2 - 1, -1, -1):
-        _refit_node(bvh, node)
+def _refit_inner_nodes(boxes):
+    for node in range(len(boxes) // 2 - 1, -1, -1):
+        _set_box(boxes, node, _box_of_children(boxes, node))
 
 
-@inner
-def _refit_leaf(mesh, bvh, leaf):
-    """Compute the box of a leaf again; return whether it has changed."""
-    faces, leaves = len(bvh.order), (len(bvh.box) + 1) // 2
-    node, changed = leaves - 1 + leaf, False
-    for axis in range(3):
-        least, most = np.inf, -np.inf
-        for place in range(_leaf_start(leaf, faces, leaves), _leaf_start(leaf + 1, faces, leaves)):
-            for h in range(3 * bvh.order[at(place)], 3 * bvh.order[at(place)] + 3):
-                value = mesh.vertices[at(mesh.origin[at(h)]), at(axis)]
-                least, most = min(least, value), max(most, value)
-        changed |= _set_bounds(bvh, node, axis, least, most)
+@inlined
+def _box_of_leaf(vertices, origin, order, start, stop):
+    """Return the box of the faces at some places of the order."""
+    x = y = z = np.inf
+    far_x = far_y = far_z = -np.inf
+    for place in range(start, stop):
+        first = 3 * np.int64(order[at(place)])
+        for corner in range(3):
+            v = at(origin[at(first + corner)])
+            a, b, c = vertices[v, at(0)], vertices[v, at(1)], vertices[v, at(2)]
+            x, y, z = min(x, a), min(y, b), min(z, c)
+            far_x, far_y, far_z = max(far_x, a), max(far_y, b), max(far_z, c)
+    return x, y, z, far_x, far_y, far_z
+
+
+@inlined
+def _box_of_children(boxes, node):
+    one, other = at(2 * node + 1), at(2 * node + 2)
+    return (
+        min(boxes[one, at(0)], boxes[other, at(0)]),
+        min(boxes[one, at(1)], boxes[other, at(1)]),
+        min(boxes[one, at(2)], boxes[other, at(2)]),
+        max(boxes[one, at(3)], boxes[other, at(3)]),
+        max(boxes[one, at(4)], boxes[other, at(4)]),
+        max(boxes[one, at(5)], boxes[other, at(5)]),
+    )
+
+
+@inlined
+def _set_box(boxes, node, box):
+    """Write the box of a node; return whether it has changed."""
+    row, changed = at(node), False
+    for bound in range(BOUNDS):
+        changed |= boxes[row, at(bound)] != box[bound]
+        boxes[row, at(bound)] = box[bound]
     return changed
 
 
 @inner
-def _refit_node(bvh, node):
-    """Compute the box of an inner node again; return whether it has changed."""
-    changed = False
-    left, right = 2 * node + 1, 2 * node + 2
-    for axis in range(3):
-        least = min(bvh.box[at(left), at(axis)], bvh.box[at(right), at(axis)])
-        most = max(bvh.box[at(left), at(3 + axis)], bvh.box[at(right), at(3 + axis)])
-        changed |= _set_bounds(bvh, node, axis, least, most)
-    return changed
-
-
-@inner
-def _set_bounds(bvh, node, axis, least, most):
-    row, low, high = at(node), at(axis), at(3 + axis)
-    if bvh.box[row, low] == least and bvh.box[row, high] == most:
-        return False
-    bvh.box[row, low], bvh.box[row, high] = least, most
-    return True
-
-
-@inner
-def _refit_above(mesh, bvh, f):
+def _refit_above(vertices, origin, bvh, f):
     """Compute the boxes that hold the face `f` again."""
-    leaf = np.int64(bvh.leaf[f])
-    changed = _refit_leaf(mesh, bvh, leaf)
-    node = len(bvh.box) // 2 + leaf
+    node = len(bvh.box) // 2 + np.int64(bvh.leaf[at(f)])
+    start, stop = leaf_range(bvh.box, len(bvh.order), node)
+    changed = _set_box(bvh.box, node, _box_of_leaf(vertices, origin, bvh.order, start, stop))
     while changed and node > 0:
         node = (node - 1) // 2
-        changed = _refit_node(bvh, node)
+        changed = _set_box(bvh.box, node, _box_of_children(bvh.box, node))
 
 
 def refit(mesh, bvh, h):
     """Bring the boxes up to date, in place, after the flip of `h` (or several in one quad)."""
     if bvh.active:
-        _refit_above(mesh, bvh, h // 3)
-        _refit_above(mesh, bvh, mesh.twin[h] // 3)
+        _refit_above(mesh.vertices, mesh.origin, bvh, h // 3)
+        _refit_above(mesh.vertices, mesh.origin, bvh, mesh.twin[h] // 3)
 
 
 @overload(refit, inline="always")
@@ -338,28 +306,22 @@ def _compiled_refit(mesh, bvh, h):
     return (lambda mesh, bvh, h: None) if is_no_bvh(bvh) else refit
 
 
-@inner
-def _expand_above(bvh, f, box, number):
-    """Make the boxes above the face `f`, changed in this round, hold `box`."""
-    bvh.changed[f] = number
-    node = len(bvh.box) // 2 + np.int64(bvh.leaf[f])
+@inlined
+def _expand_above(boxes, node, box):
+    """Make the boxes of a node and those above hold `box`."""
     while True:
-        row = at(node)
-        # If so, all nodes above have the number too.
-        is_done = bvh.changed_below[row] == number
-        bvh.changed_below[row] = number
+        row, grows = at(node), False
         for axis in range(3):
             low, high = at(axis), at(3 + axis)
-            if box[axis] < bvh.box[row, low]:
-                bvh.box[row, low], is_done = box[axis], False
-            if box[3 + axis] > bvh.box[row, high]:
-                bvh.box[row, high], is_done = box[3 + axis], False
-        if is_done or node == 0:
+            grows |= (box[axis] < boxes[row, low]) | (box[3 + axis] > boxes[row, high])
+            boxes[row, low] = min(boxes[row, low], box[axis])
+            boxes[row, high] = max(boxes[row, high], box[3 + axis])
+        if not grows or node == 0:
             return
         node = (node - 1) // 2
 
 
-@inner
+@inlined
 def expand(mesh, bvh, h, number):
     """Do what `refit` does, before or after the flip, and note the round.
 
@@ -375,15 +337,17 @@ def expand(mesh, bvh, h, number):
     number : int
         Number of the round, at least 1.
     """
-    box = box_around(*diamond(mesh, h))
-    _expand_above(bvh, np.int64(h // 3), box, number)
-    _expand_above(bvh, np.int64(mesh.twin[at(h)] // 3), box, number)
+    box, first_leaf = box_around(*diamond(mesh, h)), len(bvh.box) // 2
+    for side in (h, np.int64(mesh.twin[at(h)])):
+        f = at(side // 3)
+        bvh.changed[f] = number
+        _expand_above(bvh.box, first_leaf + np.int64(bvh.leaf[f]), box)
 
 
 # --- query ---------------------------------------------------------------------------------------
 
 
-@inner
+@inlined
 def box_around(a, b, c, d):
     """Return least x, y, z and largest x, y, z of four points."""
     return (
@@ -396,27 +360,33 @@ def box_around(a, b, c, d):
     )
 
 
-@inner
-def next_leaf(bvh, node, box, since):
+@inlined
+def next_leaf(boxes, node, box):
     """Return the first node from `node` on, in depth-first order, that is a leaf in reach.
+
+    Parameters
+    ----------
+    boxes : (2 b - 1, 6) float64
+        Those of a `Bvh`.
+    node : int
+        Node, or `NONE`.
+    box : tuple of 6 floats
 
     Returns
     -------
     int
-        A leaf whose box meets `box`, with a face that changed in the round `since` or later, or
-        `NONE` if there is none. Go on with `skip_subtree`.
+        A leaf whose box meets `box`, or `NONE` if there is none. Go on with `skip_subtree`.
     """
-    first_leaf = len(bvh.box) // 2
+    first_leaf = len(boxes) // 2
     while node != NONE:
         row = at(node)
         meets = (
-            (bvh.box[row, at(0)] <= box[3])
-            & (bvh.box[row, at(1)] <= box[4])
-            & (bvh.box[row, at(2)] <= box[5])
-            & (bvh.box[row, at(3)] >= box[0])
-            & (bvh.box[row, at(4)] >= box[1])
-            & (bvh.box[row, at(5)] >= box[2])
-            & (bvh.changed_below[row] >= since)
+            (boxes[row, at(0)] <= box[3])
+            & (boxes[row, at(1)] <= box[4])
+            & (boxes[row, at(2)] <= box[5])
+            & (boxes[row, at(3)] >= box[0])
+            & (boxes[row, at(4)] >= box[1])
+            & (boxes[row, at(5)] >= box[2])
         )
         if not meets:
             node = skip_subtree(node)
@@ -427,7 +397,7 @@ def next_leaf(bvh, node, box, since):
     return NONE
 
 
-@inner
+@inlined
 def skip_subtree(node):
     """Return the node that follows `node` and all below it in depth-first order, or `NONE`."""
     # Right children have even numbers.
@@ -436,10 +406,9 @@ def skip_subtree(node):
     return node + 1 if node > 0 else NONE
 
 
-@inner
-def leaf_range(bvh, node):
-    """Return where the faces of a leaf start and stop in ``bvh.order``."""
-    first_leaf = len(bvh.box) // 2
-    faces, leaf = len(bvh.order), node - first_leaf
-    leaves = first_leaf + 1
+@inlined
+def leaf_range(boxes, faces, node):
+    """Return where the faces of a leaf start and stop in the order of so many faces."""
+    leaves = len(boxes) // 2 + 1
+    leaf = node + 1 - leaves
     return _leaf_start(leaf, faces, leaves), _leaf_start(leaf + 1, faces, leaves)

@@ -10,16 +10,16 @@ from typing import NamedTuple
 import numpy as np
 from numba.extending import overload
 
-from ..mesh.halfedge import NONE, apex, diamond
-from ..mesh.jit import at, inner, jit
+from ..mesh.halfedge import NONE, Diamond, previous
+from ..mesh.jit import at, inlined, inner, jit, outlined
 from ..mesh.points import Point, point
-from . import meshlab_tests, triangles
+from . import meshlab_tests, predicates, triangles
 from .bvh import box_around, is_no_bvh, leaf_range, next_leaf, skip_subtree
 
 CORNERS = 3
 NO_CORNER = -1
-# All faces count, whenever they changed.
-ANY_ROUND = 0
+# All faces count, whenever they changed; and the number of no round.
+ANY_ROUND, NO_ROUND = 0, -1
 
 
 # --- pairs of triangles --------------------------------------------------------------------------
@@ -138,6 +138,18 @@ def _interiors_of_spans_are_apart(a, b, c, p, q, r):
     return max(a, b, c) <= min(p, q, r) or max(p, q, r) <= min(a, b, c)
 
 
+@inlined
+def _surely_apart(s, a, b, m, c, d, area_scale):
+    """Whether triangles of `s` and two of a, b, m are apart, but for `s`, from (s, c, d).
+
+    For MeshLab too. True for nearly all that are; for coordinates at unit scale.
+    """
+    # The points halfway are half as far from a plane.
+    limit = 2.0 * meshlab_tests.ROUNDING_OF_POINTS
+    share = 2.0 * meshlab_tests.ROUNDING_OF_AREAS * area_scale
+    return triangles.are_separated(s, a, b, m, c, d, limit, share)
+
+
 @inner
 def are_clearly_apart(one, other, shared, area_scale):
     """Whether a quick test shows that two faces neither intersect nor count as intersecting.
@@ -148,13 +160,10 @@ def are_clearly_apart(one, other, shared, area_scale):
     if shared.number != 1:
         return False
     p, q = _rotated(one, shared.corner), _rotated(other, shared.other)
-    # The points halfway are half as far from a plane.
-    limit = 2.0 * meshlab_tests.ROUNDING_OF_POINTS
-    share = 2.0 * meshlab_tests.ROUNDING_OF_AREAS * area_scale
-    return triangles.are_separated(p.a, p.b, p.c, q.b, q.c, limit, share)
+    return _surely_apart(p.a, p.b, p.c, p.c, q.b, q.c, area_scale)
 
 
-@inner
+@outlined
 def _are_refused(one, other, area_scale):
     """Whether two faces intersect, or MeshLab may count them."""
     shared = shared_vertices(one, other)
@@ -165,78 +174,169 @@ def _are_refused(one, other, area_scale):
 
 # --- flips ---------------------------------------------------------------------------------------
 
+# Which of the two new faces is meant: bits.
+NEITHER, ONE, OTHER, BOTH = range(4)
+# The corners of a diamond: bits.
+I, J, K, L = 1, 2, 4, 8
 
-@inner
-def face_at(mesh, f):
+
+@inlined
+def face_at(vertices, origin, f):
     """Return the face `f` as it is now."""
     first = 3 * f
-    u, v, w = mesh.origin[at(first)], mesh.origin[at(first + 1)], mesh.origin[at(first + 2)]
-    return face_of(mesh.vertices, u, v, w)
+    u, v, w = origin[at(first)], origin[at(first + 1)], origin[at(first + 2)]
+    return face_of(vertices, np.int64(u), np.int64(v), np.int64(w))
 
 
-@inner
+@inlined
 def box_of(face):
     """Return the box of a face."""
     return box_around(face.a, face.b, face.c, face.c)
 
 
-@inner
+@inlined
 def boxes_meet(one, other):
     """Whether two closed boxes share a point."""
     return (
-        one[0] <= other[3]
-        and one[1] <= other[4]
-        and one[2] <= other[5]
-        and other[0] <= one[3]
-        and other[1] <= one[4]
-        and other[2] <= one[5]
+        (one[0] <= other[3])
+        & (one[1] <= other[4])
+        & (one[2] <= other[5])
+        & (other[0] <= one[3])
+        & (other[1] <= one[4])
+        & (other[2] <= one[5])
     )
 
 
-@inner
-def _new_faces(mesh, h):
-    """Return the two faces that the flip of `h` makes, each with its corners in their places."""
-    t = mesh.twin[h]
-    i, j, k, l = mesh.origin[h], mesh.origin[t], apex(mesh, h), apex(mesh, t)
+class Quad(NamedTuple):
+    """The two faces that a flip makes, each with its corners in their places, and its diamond."""
+
+    one: Face
+    other: Face
+    i: int
+    j: int
+    k: int
+    l: int
+    corners: Diamond
+
+
+@inlined
+def _quad_of(vertices, origin, h, t):
+    """Return what the flip of `h`, with the twin `t`, makes."""
+    i, j = np.int64(origin[at(h)]), np.int64(origin[at(t)])
+    k, l = np.int64(origin[at(previous(h))]), np.int64(origin[at(previous(t))])
+    a, b, c, d = point(vertices, i), point(vertices, j), point(vertices, k), point(vertices, l)
     # In its face, h goes from l to k afterwards, and t back.
-    one, other = face_of(mesh.vertices, l, k, i), face_of(mesh.vertices, k, l, j)
-    return _rotated(one, (3 - h % 3) % 3), _rotated(other, (3 - t % 3) % 3)
+    one = _rotated(Face(l, k, i, d, c, a), (3 - h % 3) % 3)
+    other = _rotated(Face(k, l, j, c, d, b), (3 - t % 3) % 3)
+    return Quad(one, other, i, j, k, l, Diamond(a, b, c, d))
 
 
-@inner
-def _face_after(mesh, e, to_flip):
-    """Return the face `e` as the flips will make it; with None as it is."""
-    if to_flip is None:
-        return face_at(mesh, e)
-    h = np.int64(to_flip[at(e)])
-    one, other = _new_faces(mesh, h)
-    return one if h // 3 == e else other
+@inlined
+def _corner_of_quad(quad, u):
+    """Return which corner of a quad is the vertex `u`, or 0."""
+    return (u == quad.i) * I | (u == quad.j) * J | (u == quad.k) * K | (u == quad.l) * L
 
 
-@inner
-def _first_intersected(mesh, bvh, h, since, to_flip):
-    """Return a face besides those at `h` that one of the new faces would intersect, or `NONE`.
+@inlined
+def _not_surely_apart(quad, near, area_scale):
+    """Return which of the new faces quick tests do not show to be apart from another face.
 
-    Only of the faces that changed in the round `since` or later, as `_face_after` gives them.
+    They show that of most faces that have one or two vertices of the quad.
     """
-    f, g = np.int64(h // 3), np.int64(mesh.twin[at(h)] // 3)
-    one, other = _new_faces(mesh, h)
-    box, one_box, other_box = box_around(*diamond(mesh, h)), box_of(one), box_of(other)
-    node = next_leaf(bvh, 0, box, since)
+    i, j, k, l = quad.corners
+    at_u, at_v, at_w = (
+        _corner_of_quad(quad, near.u),
+        _corner_of_quad(quad, near.v),
+        _corner_of_quad(quad, near.w),
+    )
+    common = at_u | at_v | at_w
+    # The new faces have the corners k, l and i, and k, l and j.
+    tips, ends = common & (I | J), common & (K | L)
+    if common == 0 or tips == I | J or ends == K | L:
+        return BOTH
+    key = ends if ends else tips
+    if at_u & key:
+        s, c, d = near.a, near.b, near.c
+    elif at_v & key:
+        s, c, d = near.b, near.c, near.a
+    else:
+        s, c, d = near.c, near.a, near.b
+    a, b, m = k, l, l
+    if ends:
+        m = l if ends == K else k
+        # Beside a new face of which it has two vertices, the face is compared with the other one.
+        a, b = m if tips == I else i, m if tips == J else j
+    if not _surely_apart(s, a, b, m, c, d, area_scale):
+        return BOTH
+    if ends == 0:
+        return OTHER if tips == I else ONE
+    if tips == 0 or predicates.orient3d(s, c, d, m) != 0:
+        return NEITHER
+    return ONE if tips == I else OTHER
+
+
+@inlined
+def _is_near_refused(quad, near, one_box, other_box, area_scale):
+    """Whether one of the new faces is refused for another face."""
+    left = _not_surely_apart(quad, near, area_scale)
+    if left == NEITHER:
+        return False
+    box = box_of(near)
+    return (
+        left & ONE != 0 and boxes_meet(box, one_box) and _are_refused(quad.one, near, area_scale)
+    ) or (
+        left & OTHER != 0
+        and boxes_meet(box, other_box)
+        and _are_refused(quad.other, near, area_scale)
+    )
+
+
+class Obstacles(NamedTuple):
+    """What is in the way of a flip: a face, or `NONE`, and whether another flip of the round is."""
+
+    face: int
+    flip: bool
+
+
+@inlined
+def _face_after(vertices, origin, twin, e, h):
+    """Return the face `e` as the flip of `h`, one of its half-edges or a twin of one, makes it."""
+    h = np.int64(h)
+    quad = _quad_of(vertices, origin, h, np.int64(twin[at(h)]))
+    return quad.one if h // 3 == e else quad.other
+
+
+@outlined
+def _find_obstacles(vertices, origin, twin, bvh, h, since, number, to_flip):
+    """Return the Obstacles of the flip of `h`; see `blocking_face` and `obstacles_in_round`."""
+    t, meets_flip = np.int64(twin[at(h)]), False
+    quad, area_scale = _quad_of(vertices, origin, h, t), bvh.area_scale
+    # The pair of the new faces never changes.
+    if since == ANY_ROUND and _are_refused(quad.one, quad.other, area_scale):
+        return Obstacles(h // 3, False)
+    f, g = h // 3, t // 3
+    box, one_box, other_box = box_around(*quad.corners), box_of(quad.one), box_of(quad.other)
+    node = next_leaf(bvh.box, 0, box)
     while node != NONE:
-        start, stop = leaf_range(bvh, node)
+        start, stop = leaf_range(bvh.box, len(bvh.order), node)
         for place in range(start, stop):
             e = np.int64(bvh.order[at(place)])
-            if e in (f, g) or bvh.changed[at(e)] < since:
+            changed = bvh.changed[at(e)]
+            if (e == f) | (e == g) | (changed < since):
                 continue
-            near = _face_after(mesh, e, to_flip)
-            near_box = box_of(near)
-            if boxes_meet(near_box, one_box) and _are_refused(one, near, bvh.area_scale):
-                return e
-            if boxes_meet(near_box, other_box) and _are_refused(other, near, bvh.area_scale):
-                return e
-        node = next_leaf(bvh, skip_subtree(node), box, since)
-    return NONE
+            near, is_now = face_at(vertices, origin, e), True
+            while True:
+                if boxes_meet(box_of(near), box) and _is_near_refused(
+                    quad, near, one_box, other_box, area_scale
+                ):
+                    if is_now:
+                        return Obstacles(e, False)
+                    meets_flip = True
+                if meets_flip or not is_now or changed != number or to_flip[at(e)] == NONE:
+                    break
+                near, is_now = _face_after(vertices, origin, twin, e, to_flip[at(e)]), False
+        node = next_leaf(bvh.box, skip_subtree(node), box)
+    return Obstacles(NONE, meets_flip)
 
 
 def blocking_face(mesh, bvh, h, since):
@@ -261,12 +361,8 @@ def blocking_face(mesh, bvh, h, since):
     """
     if not bvh.active:
         return NONE
-    # The pair of the new faces never changes.
-    if since == ANY_ROUND:
-        one, other = _new_faces(mesh, h)
-        if _are_refused(one, other, bvh.area_scale):
-            return np.int64(h // 3)
-    return _first_intersected(mesh, bvh, h, since, None)
+    arrays = mesh.vertices, mesh.origin, mesh.twin
+    return _find_obstacles(*arrays, bvh, np.int64(h), since, NO_ROUND, mesh.twin).face
 
 
 # Inlined, as Numba would compile it again in each process that compiles a caller.
@@ -281,24 +377,32 @@ def would_intersect(mesh, bvh, h):
     return blocking_face(mesh, bvh, h, ANY_ROUND) != NONE
 
 
-@inner
-def intersects_another_flip(mesh, bvh, h, number, to_flip):
-    """Whether a new face of `h` would intersect one that another flip of the same round makes.
+@inlined
+def obstacles_in_round(mesh, bvh, h, number, to_flip):
+    """Return what is in the way of the flip of `h` before a round of flips.
 
     Parameters
     ----------
     mesh : Mesh
         Before the flips.
     bvh : Bvh
-        Its boxes hold the faces before and after; `expand` has noted the round.
+        Active. Its boxes hold the faces before and after; `expand` has noted the round.
     h : int
         Half-edge.
     number : int
         Number of the round, the last one.
     to_flip : (m,) int32
-        For each face that is to change in this round the half-edge that is to be flipped.
+        For each face that is to change in this round the half-edge that is to be flipped, or `NONE`
+        if it is not to change after all.
+
+    Returns
+    -------
+    Obstacles
+        The face is that of `blocking_face`. Without one, whether a new face would intersect one
+        that another flip of the round makes.
     """
-    return _first_intersected(mesh, bvh, h, number, to_flip) != NONE
+    arrays = mesh.vertices, mesh.origin, mesh.twin
+    return _find_obstacles(*arrays, bvh, np.int64(h), ANY_ROUND, number, to_flip)
 
 
 @jit
@@ -307,19 +411,20 @@ def mark_intersecting(mesh, bvh, marked, start, stop):
 
     Looks at the pairs of a face from `start` up to `stop` and a face of a higher number.
     """
+    vertices, origin = mesh.vertices, mesh.origin
     for f in range(start, stop):
-        one = face_at(mesh, f)
+        one = face_at(vertices, origin, f)
         box = box_of(one)
-        node = next_leaf(bvh, 0, box, ANY_ROUND)
+        node = next_leaf(bvh.box, 0, box)
         while node != NONE:
-            first, last = leaf_range(bvh, node)
+            first, last = leaf_range(bvh.box, len(bvh.order), node)
             for place in range(first, last):
                 e = np.int64(bvh.order[at(place)])
-                if e <= f or (marked[e] and marked[f]):
+                if e <= f or (marked[at(e)] and marked[at(f)]):
                     continue
-                near = face_at(mesh, e)
+                near = face_at(vertices, origin, e)
                 if boxes_meet(box_of(near), box) and intersect(
                     one, near, shared_vertices(one, near)
                 ):
-                    marked[e] = marked[f] = True
-            node = next_leaf(bvh, skip_subtree(node), box, ANY_ROUND)
+                    marked[at(e)] = marked[at(f)] = True
+            node = next_leaf(bvh.box, skip_subtree(node), box)

@@ -13,7 +13,7 @@ what is left of it.
 
 import numpy as np
 
-from ..mesh.jit import allocating_inner, inner
+from ..mesh.jit import allocating_inner, inner, outlined
 from ..mesh.points import Point, cross, dot, subtract
 from ..mesh.rounding import tail_of_product, tail_of_sum, tails
 
@@ -120,7 +120,7 @@ def _orient3d_again(a, b, c, d, size):
     return _sign_of(expansion, _add_determinant(expansion, count, _negative(b), c, d))
 
 
-@inner
+@outlined
 def orient3d(a, b, c, d):
     """Return the sign, -1, 0 or 1, of the determinant of the rows a - d, b - d, c - d.
 

@@ -170,16 +170,17 @@ def _extent(a):
     return abs(a.x) + abs(a.y) + abs(a.z)
 
 
-@inner
-def are_separated(s, a, b, c, d, limit, share):
-    """Whether a certain plane through `s` clearly has a, b on one side and c, d on the other.
+@inlined
+def are_separated(s, a, b, m, c, d, limit, share):
+    """Whether a certain plane through `s` clearly has a, b, m on one side and c, d on the other.
 
     It bisects the angle between the middles of a-b and c-d, and separates nearly all neighbours
-    round a vertex. The four points must be farther from it than `limit`, and
-    than `share` times the third power of what bounds the sides of the triangles (s, a, b) and
-    (s, c, d).
+    round a vertex. The five points must be farther from it than `limit`, and
+    than `share` times the third power of what bounds the sides of the triangles of s and two of
+    them on one side.
     """
-    a, b, c, d = subtract(a, s), subtract(b, s), subtract(c, s), subtract(d, s)
+    a, b, m = subtract(a, s), subtract(b, s), subtract(m, s)
+    c, d = subtract(c, s), subtract(d, s)
     one, other = add(a, b), add(c, d)
     size, other_size = norm(one), norm(other)
     w = Point(
@@ -187,15 +188,16 @@ def are_separated(s, a, b, c, d, limit, share):
         one.y * other_size - other.y * size,
         one.z * other_size - other.z * size,
     )
-    extent = _extent(a) + _extent(b) + _extent(c) + _extent(d)
+    extent = _extent(a) + _extent(b) + _extent(m) + _extent(c) + _extent(d)
     # The length of w is at most the product of the sizes times 2.
     least = (limit + share * extent * extent * extent) * 2.0 * size * other_size + LEAST
     back = Point(-w.x, -w.y, -w.z)
     return (
         _is_surely_ahead(w, a, least)
-        and _is_surely_ahead(w, b, least)
-        and _is_surely_ahead(back, c, least)
-        and _is_surely_ahead(back, d, least)
+        & _is_surely_ahead(w, b, least)
+        & _is_surely_ahead(w, m, least)
+        & _is_surely_ahead(back, c, least)
+        & _is_surely_ahead(back, d, least)
     )
 
 

@@ -84,6 +84,10 @@ def _compiled_inside(function, options=_COUNTED):
     return kernel
 
 
+def _compiled_outside(function):
+    return _compiled_inside(function, {**_UNCOUNTED, "forceinline": False})
+
+
 def _kept(compiled, function):
     kernel = compiled(function)
     if isinstance(kernel, CPUDispatcher):
@@ -128,6 +132,14 @@ def inner(function):
 def allocating_inner(function):
     """Return `function`, which creates arrays, compiled as by `inner`."""
     return _kept(_compiled_inside, function)
+
+
+def outlined(function):
+    """Return `function` compiled as by `inner`, for what is large and may be called by `inlined`.
+
+    Numba would compile it and all that it calls to be inlined, too, which takes many times as long.
+    """
+    return _kept(_compiled_outside, function)
 
 
 def generic(function):

@@ -257,7 +257,7 @@ class WatchLists(NamedTuple):
     first : (m,) int32
         First half-edge of each face's list, or `NONE`.
     ahead, behind : (3 m,) int32
-        The next and the previous half-edge of the list, or `NONE`.
+        The next and the previous half-edge of the list, or `NONE`; of those that watch a face.
     face : (3 m,) int32
         The face that each half-edge watches, or `NONE`.
     """
@@ -270,8 +270,10 @@ class WatchLists(NamedTuple):
 
 def empty_watch_lists(faces):
     """Return empty lists for so many faces."""
-    first, *links = (np.full(size, NONE, np.int32) for size in (faces, *3 * [3 * faces]))
-    return WatchLists(first, *links)
+    # What follows a half-edge is written when it begins to watch a face.
+    ahead, behind = np.empty(3 * faces, np.int32), np.empty(3 * faces, np.int32)
+    first, face = (np.full(size, NONE, np.int32) for size in (faces, 3 * faces))
+    return WatchLists(first, ahead, behind, face)
 
 
 @inner

@@ -17,7 +17,8 @@ whatever order they are flipped, each has the cost reduction that it was chosen 
 piece of a run of single flips, ordered by gain only where gains matter to each other, and it ends
 for the reasons that `greedy` gives. (For an energy whose cost reduction looks round whole corners,
 of the maxima with a common corner only the first is flipped.) What the whole mesh decides, that k-l
-is no edge yet and that no face is cut, is asked of every maximum before the round.
+is no edge yet and that no face is cut, is asked of every maximum before the round (the guard
+against intersections only of those that nothing else refuses).
 
 **Why no edge is made twice.** After some flips of a round, the edges of the mesh are among those
 before the round and those that these flips have made. k-l is none of the former, or the maximum
@@ -36,8 +37,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..guards.bvh import expand, inactive_bvh, specialized
-from ..guards.intersections import ANY_ROUND, intersects_another_flip
-from ..mesh.halfedge import Mesh, apex, flip, makes_new_edge, previous
+from ..guards.intersections import ANY_ROUND, obstacles_in_round
+from ..mesh.halfedge import NONE, Mesh, apex, flip, makes_new_edge, previous
 from ..mesh.jit import at, inner, jit
 from ..mesh.parallel import thread_pool
 from ..progress import report, stage
@@ -59,7 +60,7 @@ from .rules import (
     is_finished,
     is_tabu,
     pass_share,
-    refusal_by_all,
+    refusal,
 )
 
 # Beside the reasons of `rules.refusal`: a neighbour goes first.
@@ -84,7 +85,7 @@ def find_maxima(candidates, start, stop):
         h = candidates.edges[at(place)]
         verdict = NO_MAXIMUM
         if not stencil.visit_ring(state, h, rounds.goes_before, h):
-            verdict = refusal_by_all(state.mesh, state.bvh, h, state.rules)
+            verdict = refusal(state.mesh, h, state.rules)
         candidates.verdict[at(place)] = verdict
 
 
@@ -135,33 +136,43 @@ def _announce(candidates, number):
 
 
 @jit
-def _contest_faces(contest, start, stop):
-    """Mark, in place, the maxima of a range whose new faces would cut those of others."""
+def _ask_guard(contest, start, stop):
+    """Ask the guard against intersections of the maxima of a range that are allowed so far.
+
+    Those that would cut faces as they are get the verdict, those that would cut the new faces of
+    others are contested.
+    """
     candidates, state = contest.candidates, contest.candidates.state
     for place in range(start, stop):
         if candidates.verdict[at(place)] == ALLOWED:
             h = np.int64(candidates.edges[at(place)])
-            if intersects_another_flip(state.mesh, state.bvh, h, contest.number, state.to_flip):
-                contest.contested[at(place)] = True
+            found = obstacles_in_round(state.mesh, state.bvh, h, contest.number, state.to_flip)
+            contest.contested[at(place)] = found.flip
+            if found.face != NONE:
+                candidates.verdict[at(place)] = INTERSECTS
 
 
-def _contested(candidates, number, all_are, parallel_for):
-    """Return which maxima may be in each other's way, or all."""
-    state = candidates.state
-    contest = Contest(candidates, np.full(len(candidates.edges), all_are), number)
-    if state.bvh.active:
-        _announce(candidates, number)
-    if not all_are:
-        edges, verdict, mesh = candidates.edges, candidates.verdict, state.mesh
-        made = _NewEdges(edges, verdict, mesh.origin, mesh.twin, state.new_edge)
-        _contest_edges(made, number, contest.contested)
-        if state.bvh.active:
-            parallel_for(_contest_faces, contest, len(contest.contested))
-    return contest.contested
+def _guarded(candidates, number, parallel_for):
+    """Refuse, in place, maxima that would cut faces; return which would cut those of others."""
+    state, contested = candidates.state, np.zeros(len(candidates.edges), np.bool_)
+    if not state.bvh.active:
+        return contested
+    _announce(candidates, number)
+    parallel_for(_ask_guard, Contest(candidates, contested, number), len(contested))
+    is_refused, again = candidates.verdict == INTERSECTS, np.flatnonzero(contested)
+    if is_refused.any() and len(again):
+        # The faces of a refused flip are not in the way.
+        refused = candidates.edges[is_refused]
+        state.to_flip[refused // 3] = state.to_flip[state.mesh.twin[refused] // 3] = NONE
+        rest = Candidates(state, candidates.edges[again], candidates.verdict[again])
+        still = np.zeros(len(again), np.bool_)
+        parallel_for(_ask_guard, Contest(rest, still, number), len(still))
+        contested[again] = still
+    return contested
 
 
 def in_order(candidates, number, flips, parallel_for):
-    """Return the maxima in the order in which they are to be flipped.
+    """Return the maxima in the order in which they are to be flipped; ask the guard of them.
 
     Where maxima can be in each other's way, the larger gain goes first.
 
@@ -187,11 +198,16 @@ def in_order(candidates, number, flips, parallel_for):
     state = candidates.state
     places = np.flatnonzero(candidates.verdict != NO_MAXIMUM)
     maxima = Candidates(state, candidates.edges[places], candidates.verdict[places])
+    contested = _guarded(maxima, number, parallel_for)
     is_allowed = maxima.verdict == ALLOWED
     are_many = flips + np.count_nonzero(is_allowed) > state.rules.maxflips
-    contested = _contested(maxima, number, state.rules.is_wide or are_many, parallel_for)
-    is_late = is_allowed & contested
-    late = np.flatnonzero(is_late)
+    if state.rules.is_wide or are_many:
+        contested[:] = True
+    else:
+        mesh = state.mesh
+        made = _NewEdges(maxima.edges, maxima.verdict, mesh.origin, mesh.twin, state.new_edge)
+        _contest_edges(made, number, contested)
+    late = np.flatnonzero(is_allowed & contested)
     edges = maxima.edges[late]
     numbers = edges.astype(np.uint64) * rounds.SCRAMBLER & rounds.LOW_BITS
     late = late[np.lexsort((numbers, -state.rank[edges]))]

@@ -110,7 +110,6 @@ def initial_state(mesh, rules, bvh):
     """Return the state at the start: every edge is dirty, and the BVH knows of no rounds."""
     if bvh.active:
         bvh.changed[:] = 0
-        bvh.changed_below[:] = 0
     size, faces = len(mesh.origin), len(mesh.origin) // 3
     edges = np.flatnonzero(np.arange(size, dtype=np.int32) < mesh.twin).astype(np.int32)
     return RoundState(

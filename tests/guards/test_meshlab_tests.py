@@ -117,7 +117,7 @@ def test_faces_that_only_rounding_brings_together_are_not_clearly_apart():
         shared = shared_vertices(one, other)
         if meshlab_may_count(one, other, shared, area_scale):
             assert not are_clearly_apart(one, other, shared, area_scale)
-            by_rounding += triangles.are_separated(s, a, b, c, d, 0.0, 0.0)
+            by_rounding += triangles.are_separated(s, a, b, b, c, d, 0.0, 0.0)
     assert by_rounding > 0
 
 

@@ -25,7 +25,7 @@ LEAF_FACES = 8
 LEVELS, BLOCKS = 4, 16
 BOUNDS = 6
 # A place along an axis, in steps, above the number of a face.
-STEPS, NUMBER_BITS, LOW_BITS = 2.0**32 - 1, np.uint64(32), np.uint64(2**32 - 1)
+STEPS, NUMBER_BITS, LOW_BITS = 2.0**32, np.uint64(32), np.uint64(2**32 - 1)
 
 
 class Bvh(NamedTuple):
@@ -164,8 +164,8 @@ def _find_centres(task, start, stop):
 
 @jit
 def _write_keys(state, first_part, last_part):
-    """Write what to sort the faces of some parts by: their place along the longest axis."""
-    faces = len(state.keys)
+    """Write what to sort the faces of some parts by: the part, the place along its longest axis."""
+    faces, steps = len(state.keys), STEPS // (last_part - first_part)
     for part in range(first_part, last_part):
         start = _leaf_start(part * state.width, faces, state.leaves)
         stop = _leaf_start((part + 1) * state.width, faces, state.leaves)
@@ -173,15 +173,15 @@ def _write_keys(state, first_part, last_part):
         for place in range(start, stop):
             f = state.keys[at(place)] & LOW_BITS
             along = (state.centres[at(axis), f] - low) / extent
-            state.keys[at(place)] = np.uint64(along * STEPS) << NUMBER_BITS | f
+            step = (part - first_part) * steps + along * (steps - 1.0)
+            state.keys[at(place)] = np.uint64(step) << NUMBER_BITS | f
 
 
 def _sort_parts(state, first_part, last_part):
-    """Sort each of these parts by itself. No two keys are equal, so that all sorts agree."""
+    """Sort these parts, for which `_write_keys` was called at once. All keys are different."""
     faces = len(state.keys)
-    for part in range(first_part, last_part):
-        start = _leaf_start(part * state.width, faces, state.leaves)
-        state.keys[start : _leaf_start((part + 1) * state.width, faces, state.leaves)].sort()
+    start = _leaf_start(first_part * state.width, faces, state.leaves)
+    state.keys[start : _leaf_start(last_part * state.width, faces, state.leaves)].sort()
 
 
 @inlined

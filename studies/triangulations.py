@@ -16,7 +16,7 @@ import numpy as np
 from meshlab_willmore.energy import area, gaussian_curvature, mean_curvature, willmore
 from meshlab_willmore.mesh.build import build
 from meshlab_willmore.mesh.halfedge import flip, following, next_in_fan
-from meshlab_willmore.mesh.jit import jit
+from meshlab_willmore.mesh.jit import allocating_jit, jit
 from meshlab_willmore.mesh.points import angle_between, cross, dot, norm, point, subtract
 from tests.connectivity import can_flip
 from tests.meshes import CUBE_QUADS, cube
@@ -114,7 +114,7 @@ def _cone_curvature(directions):
     return FULL_TURN - perimeter if perimeter > 0.0 else 0.0
 
 
-@jit
+@allocating_jit
 def extrinsic_curvature(mesh):
     """The total absolute extrinsic curvature of a closed mesh: that of a tight triangulation.
 
@@ -145,7 +145,7 @@ def extrinsic_curvature(mesh):
     return total
 
 
-@jit
+@allocating_jit
 def totals(mesh):
     """Area, absolute Gaussian and extrinsic curvature, M, and W (as the objective) of a mesh."""
     return (
@@ -178,7 +178,7 @@ def _name(mesh, numbers, weights):
     return least
 
 
-@jit
+@allocating_jit
 def _neighbours(mesh, measure, numbers, weights, values, names, faces):
     """Write down what each flip leads to; return the number of flips."""
     count = 0

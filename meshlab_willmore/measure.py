@@ -216,13 +216,29 @@ def self_intersections(vertices: ArrayLike, faces: ArrayLike) -> NDArray[np.bool
     return intersecting_faces_of(_unit_mesh(vertices, faces)[0])
 
 
-def intersecting_faces_of(mesh: Mesh) -> NDArray[np.bool_]:
-    """Return which faces of a half-edge mesh intersect others, as `self_intersections` does."""
+def intersecting_faces_of(mesh: Mesh, chosen: NDArray[np.bool_] | None = None) -> NDArray[np.bool_]:
+    """Return which faces of a half-edge mesh intersect others, as `self_intersections` does.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    chosen : (m,) bool, optional
+        Look only at pairs of which one is among these faces.
+    """
+    faces = len(mesh.origin) // 3
+    if chosen is None:
+        chosen = np.ones(faces, np.bool_)
+    # All pairs with a face of a higher number are looked at.
+    order = np.argsort(~chosen, kind="stable")
+    mesh = mesh._replace(origin=mesh.origin.reshape(-1, 3)[order].ravel())
     bvh = build_bvh(mesh)
-    marked = np.zeros(len(mesh.origin) // 3, np.bool_)
-    for start in range(0, len(marked), FACES_PER_CALL):
-        mark_intersecting(mesh, bvh, marked, start, min(start + FACES_PER_CALL, len(marked)))
-    return marked
+    marked = np.zeros(faces, np.bool_)
+    last = np.count_nonzero(chosen)
+    for start in range(0, last, FACES_PER_CALL):
+        mark_intersecting(mesh, bvh, marked, start, min(start + FACES_PER_CALL, last))
+    found = np.empty_like(marked)
+    found[order] = marked
+    return found
 
 
 def willmore_energy_of(mesh: Mesh) -> float:

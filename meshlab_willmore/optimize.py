@@ -107,11 +107,12 @@ def optimize_flips(
         - "paper": the paper's method, or whatever the other options say.
         - "faithful": the true shape of the surface, and then good triangles. Flips lower "mean
           curvature", which finds creases and smooth parts back, with chains of two flips where the
-          surface is folded; then "delaunay" without moving the surface by more than
-          `maxdeviation`, 0.03 % of the bounding box's diagonal by default (infinity: no limit).
+          surface is folded, and along the normals of vertices where it is bent; then "delaunay"
+          without moving the surface by more than `maxdeviation`, 0.03 % of the bounding box's
+          diagonal by default (infinity: no limit).
           Until then `foldangle` and `minshape` are 180 and 0, unless they have other values than
-          their defaults. Where the surface is folded and there would be more faces that cut others
-          than before, all is done again with `checkintersections`.
+          their defaults. Where there would be more faces that cut others than before, all is done
+          again with `checkintersections`.
         - "smooth": the lowest Willmore energy.
         - "shape": the best triangles within `maxdeviation` of the input, with the same default.
 
@@ -124,7 +125,11 @@ def optimize_flips(
         What a pass leaves out has the default; `foldangle`, `minshape`, `maxdeviation`,
         `checkintersections` and `maxflips` given beside `passes` are for all of them. With
         ``atfolds=True`` a pass flips only faces at edges that are bent by more than 100 degrees,
-        and their neighbours.
+        and their neighbours. With ``vertexnormals=True`` one of "mean curvature" flips only faces
+        at edges bent by 10 to 60 degrees and their neighbours, none of them at a sharper edge, and
+        counts the angles too between faces and the normals that their vertices have when the pass
+        begins (see `meshlab_willmore.energy.tilt`). With ``mingain=0.05`` a pass makes only flips
+        that lower its energy by more than 0.05, where the median edge has length 1.
     energy : str
         What to minimise.
 
@@ -309,7 +314,7 @@ def _flipped(
     work = sum(map(work_of, plan))
     report(BEFORE / (BEFORE + work + AFTER), "flipping")
     with stage(work / (work + AFTER)):
-        done, deviation, _ = run(plan, mesh, exponent, left)
+        done, deviation = run(plan, mesh, exponent, left)
     report(0.0, "measuring")
     new_faces, corners = in_old_slots(mesh, order)
     after = quality_of(mesh, interior)

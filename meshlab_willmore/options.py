@@ -73,6 +73,8 @@ class PassOptions(CommonOptions, total=False):
     """The options that a pass in a list of passes can have."""
 
     atfolds: bool
+    vertexnormals: bool
+    mingain: float
 
 
 class FlipOptions(CommonOptions, total=False):
@@ -412,4 +414,23 @@ ATFOLDS = Option(
     _flag,
 )
 
-BY_NAME = {option.name: option for option in (*OPTIONS, ATFOLDS)}
+VERTEXNORMALS = Option(
+    "vertexnormals",
+    bool,
+    False,
+    "Along the normals of vertices",
+    "With 'mean curvature': turn the faces to the normals of their vertices too, where the surface "
+    "is bent by 10 to 60 degrees.",
+    _flag,
+)
+MINGAIN = Option(
+    "mingain",
+    float,
+    0.0,
+    "Least gain",
+    "Make only flips that lower the energy by more than this, where the median edge has length 1.",
+    _share,
+)
+OF_PASSES = (ATFOLDS, VERTEXNORMALS, MINGAIN)
+
+BY_NAME = {option.name: option for option in (*OPTIONS, *OF_PASSES)}

@@ -8,6 +8,8 @@ from typing import Any, NamedTuple
 from . import options, presets
 
 DEFAULT_PRESET = options.PRESET.default
+# The energy to which `vertexnormals` adds something.
+BENDS = "mean curvature"
 
 
 class Pass(NamedTuple):
@@ -35,6 +37,8 @@ class Pass(NamedTuple):
     checkintersections: bool
     maxflips: int | None
     atfolds: bool = False
+    vertexnormals: bool = False
+    mingain: float = 0.0
     counts_anew: bool = False
 
 
@@ -76,7 +80,8 @@ def planned(
     passes : sequence of mappings or None
         The options of each pass, in place of a preset.
     given : mapping
-        A value for each of `PASS_OPTIONS` but "atfolds": for passes that do not say otherwise.
+        A value for each of `PASS_OPTIONS` that the filter has too: for passes that do not say
+        otherwise.
     diagonal : float
         Of the bounding box, in the unit of `maxdeviation`.
 
@@ -131,5 +136,10 @@ def _listed(passes: Sequence[Mapping[str, Any]], given: Mapping[str, Any]) -> tu
 
 
 def _checked(values: Mapping[str, Any]) -> Pass:
-    values = {options.ATFOLDS.name: options.ATFOLDS.default, **values}
-    return Pass(**{name: options.BY_NAME[name].checked(values[name]) for name in PASS_OPTIONS})
+    values = {**{option.name: option.default for option in options.OF_PASSES}, **values}
+    found = Pass(**{name: options.BY_NAME[name].checked(values[name]) for name in PASS_OPTIONS})
+    if found.vertexnormals and found.energy != BENDS:
+        raise ValueError(f"vertexnormals needs the energy {BENDS!r}, not {found.energy!r}")
+    if found.vertexnormals and found.atfolds:
+        raise ValueError("vertexnormals can't be given beside atfolds: no fold has good normals")
+    return found

@@ -43,8 +43,8 @@ class Preset(NamedTuple):
         The default of that option, in percent of the bounding box's diagonal; all of it is no
         limit.
     keeps_cuts : bool
-        Whether the number of faces that cut others must not grow: if it does where the surface was
-        folded on the way, all is done again with the guard against intersections, which is slow.
+        Whether the number of faces that cut others must not grow: if it does, all is done again
+        with the guard against intersections, which is slow.
     """
 
     help: str
@@ -55,6 +55,8 @@ class Preset(NamedTuple):
 
 # The guards would keep folds that are there already.
 _UNFOLD = {"foldangle": 180.0, "minshape": 0.0}
+# Smaller gains say nothing of the surface, and good triangulations lose by such flips.
+_NOISE = 0.05
 
 # The first is the default.
 PRESETS = {
@@ -62,7 +64,7 @@ PRESETS = {
     "faithful": Preset(
         "the true surface, creases too, then good triangles",
         (
-            PresetPass({"energy": "mean curvature"}, defaults=_UNFOLD),
+            PresetPass({"energy": "mean curvature", "mingain": _NOISE}, defaults=_UNFOLD),
             # Single flips leave tangles behind, where chains of two find the way out.
             PresetPass(
                 {
@@ -72,6 +74,10 @@ PRESETS = {
                     "breadth": 1,
                     "atfolds": True,
                 },
+                defaults=_UNFOLD,
+            ),
+            PresetPass(
+                {"energy": "mean curvature", "vertexnormals": True, "mingain": _NOISE},
                 defaults=_UNFOLD,
             ),
             PresetPass({"energy": "delaunay"}, stays_near=True),

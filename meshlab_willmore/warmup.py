@@ -27,6 +27,7 @@ from .mesh.kernel_cache import write_errors
 from .mesh.normals import vertex_normals
 from .optimize import optimize_flips
 from .options import ENERGY, FOLDANGLE, SEARCH, VIRTUALPOINT
+from .passes import BENDS
 from .search.compiled import KERNELS
 from .search.rules import ChainLimits, Rules
 from .search.variable_depth import search_by_chains
@@ -72,6 +73,9 @@ def steps() -> list[WarmupStep]:
         chosen[f"{search}, virtual points {place}"] = partial(
             flips, search=search, energy=VIRTUAL, virtualpoint=place
         )
+    for search in SEARCH.choices:
+        along: Any = {"energy": BENDS, "search": search, "sweeps": 1, "vertexnormals": True}
+        chosen[f"{search}, normals of vertices"] = partial(optimize_flips, *patch, passes=[along])
     chosen["waves of flips"] = waves
     guarded = {
         f"{name}{_GUARDED}": partial(run, checkintersections=True) for name, run in chosen.items()

@@ -9,7 +9,7 @@ import types
 
 import meshlab_willmore
 from meshlab_willmore.mesh import jit
-from meshlab_willmore.search.compiled import KERNELS, PLACED_KERNELS
+from meshlab_willmore.search.compiled import KERNELS, PLACED_KERNELS, TILT_KERNELS
 
 
 def called_from_python():
@@ -17,7 +17,8 @@ def called_from_python():
     named = [value for function in _plain_functions() for value in _named_in(function)]
     # Now that all modules are imported.
     cached = {id(kernel): kernel for kernel in jit.KERNELS}
-    listed = [kernel for row in (*KERNELS.values(), *PLACED_KERNELS.values()) for kernel in row]
+    rows = (*KERNELS.values(), *PLACED_KERNELS.values(), TILT_KERNELS)
+    listed = [kernel for row in rows for kernel in row]
     used = {id(value) for value in [*named, *listed]}
     return {_name(kernel): kernel for key, kernel in cached.items() if key in used}
 

@@ -138,6 +138,16 @@ def test_what_passes_decide_can_not_be_given_beside_them():
         ([{}, {"energy": "x"}], ValueError, r"passes\[1\]: unknown energy 'x'; choose one of"),
         ([{"maxdeviation": -1}], ValueError, r"passes\[0\]: maxdeviation must be a length"),
         ([{"depth": "5"}], TypeError, r"passes\[0\]: depth must be an integer"),
+        (
+            [{"energy": "area", "vertexnormals": True}],
+            ValueError,
+            r"passes\[0\]: vertexnormals needs the energy 'mean curvature', not 'area'",
+        ),
+        (
+            [{"energy": "mean curvature", "vertexnormals": True, "atfolds": True}],
+            ValueError,
+            r"passes\[0\]: vertexnormals can't be given beside atfolds",
+        ),
     ],
 )
 def test_wrong_passes(passes, error, message):

@@ -11,6 +11,7 @@ import pytest
 import meshlab_willmore
 from meshlab_willmore import Cancelled, optimize_flips
 from meshlab_willmore.options import SEARCH
+from meshlab_willmore.presets import PRESETS
 from meshlab_willmore.progress import DONE, listening, logged, report, stage
 from meshlab_willmore.progress import was_raised_by_listener as was_raised
 from tests import meshes
@@ -260,7 +261,7 @@ def test_passes_are_named_and_weighted(preset):
         optimize_flips(*meshes.bumpy_sphere(60), preset=preset)
     heard.check()
     names = [text.split(",")[0] for _, text in heard if text.startswith("pass")]
-    count = 3 if preset == "faithful" else 2
+    count = len(PRESETS[preset].passes)
     assert list(dict.fromkeys(names)) == [f"pass {n} of {count}" for n in range(1, count + 1)]
     begin = {name: f for f, name in reversed([(f, t.split(",")[0]) for f, t in heard])}
     assert begin["pass 1 of " + str(count)] > 0.0

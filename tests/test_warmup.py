@@ -106,6 +106,7 @@ def test_every_search_of_every_energy_is_a_step_with_the_default_first():
     for search in SEARCH.choices:
         assert {f"{search}, {energy}" for energy in ENERGY.choices} < set(names)
         assert {f"{search}, virtual points {place}" for place in VIRTUALPOINT.choices} < set(names)
+        assert f"{search}, normals of vertices" in names
 
 
 def test_the_mesh_has_flips_to_make():

@@ -86,3 +86,5 @@ ENERGIES = {
 # The modules of "virtual willmore" by where the virtual points are; `AT`: at a number.
 VIRTUAL_POINTS = {"midpoint": "virtual", "closest": "virtual_closest"}
 AT = "virtual_at"
+# The module of "mean curvature" in passes that look at the normals of vertices too.
+TILT = "tilt"

@@ -37,8 +37,8 @@ class Mesh(NamedTuple):
 
     Attributes
     ----------
-    vertices : (n, 3) float64
-        Coordinates, never changed.
+    vertices : (n, 3) or (n, 6) float64
+        Coordinates, never changed; with six columns, then a unit normal of each vertex.
     origin : (3 m,) int32
         Vertex at which each half-edge starts: the flattened faces.
     twin : (3 m,) int32

@@ -26,6 +26,7 @@ _PACKAGE = Path(__file__).resolve().parents[1]
 # What kernels are made of, seen from the package's folder.
 SOURCES = (
     "energy/*.py",
+    "folds.py",
     "guards/*.py",
     "measure.py",
     "mesh/build.py",

@@ -12,7 +12,7 @@ from types import ModuleType
 from typing import NamedTuple
 
 from ..energy import willmore
-from ..energy.table import AT, ENERGIES, VIRTUAL_POINTS
+from ..energy.table import AT, ENERGIES, TILT, VIRTUAL_POINTS
 from ..mesh.jit import allocating_jit, jit
 from . import annealing, costs, scoring
 from .copies import with_globals
@@ -107,3 +107,5 @@ PLACED_KERNELS = {
     place: _kernels(module, False, ENERGIES["virtual willmore"].most_loss)
     for place, module in {**VIRTUAL_POINTS, AT: AT}.items()
 }
+# Those for "mean curvature" with the tilts of faces against the normals of vertices.
+TILT_KERNELS = _kernels(TILT, True, ENERGIES["mean curvature"].most_loss)

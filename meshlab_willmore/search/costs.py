@@ -12,7 +12,7 @@ import importlib
 import numpy as np
 from numba.extending import overload
 
-from ..energy.table import AT, ENERGIES, VIRTUAL_POINTS
+from ..energy.table import AT, ENERGIES, TILT, VIRTUAL_POINTS
 from ..mesh.jit import inlined, inner
 from .copies import with_globals
 
@@ -20,7 +20,9 @@ from .copies import with_globals
 PLACED = 3
 
 # The modules of all energies. Their numbers are the places in this list.
-_NAMES = dict.fromkeys([*(row.module for row in ENERGIES.values()), *VIRTUAL_POINTS.values(), AT])
+_NAMES = dict.fromkeys(
+    [*(row.module for row in ENERGIES.values()), *VIRTUAL_POINTS.values(), AT, TILT]
+)
 MODULES = [importlib.import_module(f"..energy.{name}", __package__) for name in _NAMES]
 # `_linked` puts in these places what belongs to a link of the chain.
 energy, number_of_energy, own, others = MODULES[0], 0, None, None

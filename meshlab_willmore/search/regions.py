@@ -119,7 +119,7 @@ def _search(work, start, stop):
 
 def _split(mesh):
     """Return the faces of each part: halves along the longest side, halves of these, and so on."""
-    middles = mesh.vertices[faces_of(mesh)].mean(axis=1)
+    middles = mesh.vertices[:, :3][faces_of(mesh)].mean(axis=1)
     parts = [np.arange(len(middles))]
     while len(middles) // (2 * len(parts)) >= LEAST_FACES:
         parts = [half for part in parts for half in _halves(part, middles[part])]

@@ -13,7 +13,7 @@ from meshlab_willmore.energy.table import AT, ENERGIES, VIRTUAL_POINTS
 from meshlab_willmore.mesh.build import build
 from meshlab_willmore.mesh.halfedge import is_free
 from meshlab_willmore.search import annealing, costs, scoring
-from meshlab_willmore.search.compiled import KERNELS, PLACED_KERNELS, compiled
+from meshlab_willmore.search.compiled import KERNELS, PLACED_KERNELS, TILT_KERNELS, compiled
 from meshlab_willmore.search.copies import with_globals
 from tests import meshes
 
@@ -49,12 +49,14 @@ def test_each_energy_has_a_set_of_kernels():
 
 
 def test_the_number_of_an_energy_is_its_own():
-    numbers = [each.number for each in {**KERNELS, **PLACED_KERNELS}.values()]
-    assert len(set(numbers)) == len(costs.MODULES) == len(KERNELS) + len(PLACED_KERNELS) - 1
-    mesh, place = build(*meshes.bumpy_sphere(30, bump=0.6)), 0.3
+    rows = [*KERNELS.values(), *PLACED_KERNELS.values(), TILT_KERNELS]
+    numbers = [each.number for each in rows]
+    assert len(set(numbers)) == len(costs.MODULES) == len(rows) - 1
+    vertices, faces = meshes.bumpy_sphere(30, bump=0.6)
+    mesh, place = build(np.hstack([vertices, vertices]), faces), 0.3
     edges = np.array([h for h in range(len(mesh.origin)) if is_free(mesh, h)], np.int32)
     gains, seen = np.full(len(edges), 7.0), []
-    for kernels in (*KERNELS.values(), *PLACED_KERNELS.values()):
+    for kernels in rows:
         function = kernels.energy.cost_reduction
         wanted = [costs.gain_of(function, mesh, h, place) for h in edges.tolist()]
         costs.find_gains(kernels.number, mesh, edges, len(edges) - 1, place, gains)

@@ -6,12 +6,14 @@ import numpy as np
 import pymeshlab
 import pytest
 
-from meshlab_willmore.measure import self_intersections
+from meshlab_willmore.measure import intersecting_faces_of, self_intersections
+from meshlab_willmore.mesh.build import build
 from meshlab_willmore.optimize import optimize_flips
 from meshlab_willmore.options import ENERGY, SEARCH
 from tests import meshes
 from tests.combinations import products
 from tests.guards.test_meshlab_tests import counted
+from tests.test_folds import crossing_sheets
 
 COW = Path(pymeshlab.__file__).parent / "tests" / "sample_meshes" / "cow.obj"
 
@@ -113,3 +115,20 @@ def test_nothing_cuts_in_an_empty_mesh():
     nothing = np.empty((0, 3)), np.empty((0, 3), np.int32)
     assert self_intersections(*nothing).shape == (0,)
     assert optimize_flips(*nothing, checkintersections=True).converged
+
+
+def test_pairs_with_one_of_the_chosen_faces():
+    vertices, faces = crossing_sheets(2)
+    mesh = build(vertices, faces)
+    every = intersecting_faces_of(mesh)
+    np.testing.assert_array_equal(every, self_intersections(vertices, faces))
+    upper = faces.min(axis=1) >= len(vertices) // 2
+    # The sheets cut each other, so each pair has a face of the upper one.
+    assert 0 < every.sum() < len(faces)
+    np.testing.assert_array_equal(intersecting_faces_of(mesh, upper), every)
+    one = np.arange(len(faces)) == np.flatnonzero(every & upper)[0]
+    found = intersecting_faces_of(mesh, one)
+    assert found[one].all()
+    assert 1 < found.sum() < every.sum()
+    assert not (found & ~every).any()
+    assert not intersecting_faces_of(mesh, ~every).any()

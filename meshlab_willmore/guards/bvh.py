@@ -179,9 +179,10 @@ def _write_keys(state, first_part, last_part):
 
 def _sort_parts(state, first_part, last_part):
     """Sort these parts, for which `_write_keys` was called at once. All keys are different."""
-    faces = len(state.keys)
-    start = _leaf_start(first_part * state.width, faces, state.leaves)
-    state.keys[start : _leaf_start(last_part * state.width, faces, state.leaves)].sort()
+    # The places are those of `_leaf_start`, which is for kernels.
+    faces = state.width * len(state.keys)
+    start, stop = (part * faces // state.leaves for part in (first_part, last_part))
+    state.keys[start:stop].sort()
 
 
 @inlined

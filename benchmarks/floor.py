@@ -25,7 +25,7 @@ from meshlab_willmore.energy.table import ENERGIES
 from meshlab_willmore.guards.bvh import inactive_bvh
 from meshlab_willmore.mesh.build import build
 from meshlab_willmore.mesh.halfedge import is_free
-from meshlab_willmore.mesh.jit import jit
+from meshlab_willmore.mesh.jit import allocating_jit, jit
 from meshlab_willmore.mesh.parallel import thread_pool
 from meshlab_willmore.mesh.validate import check_mesh, to_unit_scale
 from meshlab_willmore.search.compiled import KERNELS
@@ -65,7 +65,7 @@ def gather(mesh, edges, rows):
         fill(rows[place // LANES], place % LANES, mesh, edges[place])
 
 
-@jit
+@allocating_jit
 def find_helpful(rows, edges):
     """Return those of the edges, gathered in `rows`, that the energy is in favour of."""
     is_helpful = np.zeros(len(edges), np.bool_)
@@ -96,7 +96,7 @@ def compute(ready, start, stop):
                 ready.gains[block, lane] = radians(drop_at(rows, lane))
 
 
-@jit
+@allocating_jit
 def free_edges(mesh, edges):
     """Return those of `edges` that may be flipped at all."""
     return np.array([h for h in edges if is_free(mesh, h)], np.int32)

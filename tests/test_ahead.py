@@ -78,6 +78,7 @@ def test_it_is_started_once_with_the_path_of_this_process(cold):
     assert process.command[:2] == [sys.executable, "-c"]
     assert repr(sys.path) in process.command[2]
     compile(process.command[2], "command", "exec")
+    assert process.command[2].endswith(f" ahead.{ahead.compile_kernels.__name__}()")
     for kernel in ahead.KERNELS:
         kernel._cache.wait()
     assert process.polls == 2 + len(ahead.KERNELS) - 1

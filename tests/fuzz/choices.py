@@ -29,7 +29,21 @@ def random_passes(rng, vertices, faces):
         kept = rng.random(len(options)) < 0.7
         chosen = zip(options.items(), kept, strict=True)
         passes.append({k: v for (k, v), keep in chosen if keep and k in PASS_OPTIONS})
-    return {**shared, "passes": passes}
+    # With numbers of their own: the others of a case stay as they were.
+    (own,) = rng.spawn(1)
+    return {**shared, "passes": [{**one, **_only_of_passes(own, one)} for one in passes]}
+
+
+def _only_of_passes(rng, given):
+    """What only passes take, for one with the options that are given."""
+    chosen = {}
+    if rng.random() < 0.3:
+        chosen["mingain"] = float(rng.choice([0.0, 0.05, rng.random()]))
+    if given.get("energy") == "mean curvature" and rng.random() < 0.7:
+        chosen["vertexnormals"] = True
+    elif rng.random() < 0.2:
+        chosen["atfolds"] = True
+    return chosen
 
 
 def random_mapping(rng, vertices, faces):
